@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_COEFFICIENTS_H
+#define EEPA_COEFFICIENTS_H
+
+#include "parameters.h"
+
+#include <cmath>
+
+namespace eepa {
+
+/// What the hot loop reads for one pair of types: parameters at d_ref, with everything
+/// derived from them that does not change from contact to contact.
+struct Coefficients {
+  double k1, k2, k_adh, f0;        ///< as in Parameters
+  double mu, kt;                   ///< as in Parameters, kt resolved
+  double inverse_kt;               ///< 1/kt; 0 where kt = 0
+  double plastic_fraction;         ///< linear: (delta_p/delta_max)^n = 1 - k1/k2; plateau: k1/k2
+  double adhesive_memory;          ///< linear: delta_max/delta on the adhesive branch, >= 1
+  double restitution_damping;      ///< B_n / sqrt(m* k1), [0, 2]; 0 for given dashpots
+  double tangential_ratio;         ///< sqrt(kt/k1): B_t/B_n of restitution damping for n = 1
+  double viscous_normal;           ///< given B_n, else 0
+  double viscous_tangential;       ///< given B_t, else 0
+  double mu_r, kr, inverse_kr, rolling_viscous;
+  double exponent;                 ///< n
+  double inverse_reference_diameter;    ///< 1/d_ref, or 0 when nothing scales
+};
+
+/// B_n / sqrt(m* k1) for a coefficient of restitution e of the linear spring-dashpot.
+///
+/// sqrt(4 / (1 + (pi/ln e)^2)): exactly 0 for e = 1, exactly 2 (critical) for e = 0.
+/// Source: contract section 1; Thakur et al. (2014), equation 5.
+/// \param restitution  e in [0, 1]
+EEPA_FUNCTION double restitution_damping(double restitution)
+{
+  if (restitution >= 1.0) return 0.0;
+  if (restitution <= 0.0) return 2.0;
+  constexpr double pi = 3.14159265358979323846;
+  const double ratio = pi / std::log(restitution);
+  return 2.0 / std::sqrt(1.0 + ratio * ratio);
+}
+
+/// Resolves valid parameters into what the hot loop reads.
+/// \param p  parameters that validate() has no errors on
+/// \param s  settings that validate() has no errors on
+EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
+{
+  Coefficients c{};
+  c.k1 = p.k1;
+  c.k2 = p.k2;
+  c.k_adh = p.k_adh;
+  c.f0 = p.f0;
+  c.mu = p.mu;
+  c.kt = tangential_stiffness(p);
+  c.inverse_kt = c.kt > 0.0 ? 1.0 / c.kt : 0.0;
+  c.exponent = s.exponent;
+  c.inverse_reference_diameter = s.scaled ? 1.0 / s.reference_diameter : 0.0;
+  if (s.law == Law::plateau) {
+    c.plastic_fraction = p.k1 / p.k2;
+    c.adhesive_memory = 1.0;
+  } else {
+    c.plastic_fraction = (p.k2 - p.k1) / p.k2;
+    // delta_p^n = (1 + k_adh/k2) delta^n and delta_p^n = (1 - k1/k2) delta_max^n; with k2 = k1
+    // there is no adhesive branch
+    c.adhesive_memory =
+        p.k2 > p.k1 ? std::pow((p.k2 + p.k_adh) / (p.k2 - p.k1), 1.0 / s.exponent) : 1.0;
+  }
+  if (p.damping == Damping::restitution) {
+    c.restitution_damping = restitution_damping(p.restitution);
+    c.tangential_ratio = std::sqrt(c.kt / c.k1);
+  } else {
+    c.viscous_normal = p.viscous_normal;
+    c.viscous_tangential = p.viscous_tangential;
+  }
+  if (p.rolling != RollingModel::none) c.mu_r = p.mu_r;
+  if (p.rolling == RollingModel::sds) {
+    c.kr = p.kr;
+    c.inverse_kr = p.kr > 0.0 ? 1.0 / p.kr : 0.0;
+    c.rolling_viscous = p.rolling_viscous;
+  }
+  return c;
+}
+
+/// How the coefficients of a contact of size d relate to those at d_ref.
+///
+/// With s = d/d_ref stiffnesses go with s, forces and given dashpots with s^2 (article,
+/// section 3). For an exponent n the stiffness of force/length^n goes with s^(2-n); that is
+/// written as s times (delta/s)^(n-1) delta, which is the same and exact for s a power of 2.
+struct Scale {
+  double size = 1.0;            ///< s
+  double inverse_size = 1.0;    ///< 1/s
+  EEPA_FUNCTION double stiffness() const { return size; }
+  EEPA_FUNCTION double force() const { return size * size; }
+};
+
+/// The scale of a contact.
+/// \param c  coefficients of its types
+/// \param size  d: R_i + R_j between particles, 2 R_i at a wall [length], > 0
+EEPA_FUNCTION Scale contact_scale(const Coefficients &c, double size)
+{
+  Scale scale;
+  if (c.inverse_reference_diameter > 0.0) {
+    scale.size = size * c.inverse_reference_diameter;
+    scale.inverse_size = 1.0 / scale.size;
+  }
+  return scale;
+}
+
+}    // namespace eepa
+
+#endif

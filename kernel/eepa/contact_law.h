@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_CONTACT_LAW_H
+#define EEPA_CONTACT_LAW_H
+
+#include "coefficients.h"
+#include "contact.h"
+#include "history.h"
+#include "normal_law.h"
+#include "rolling_law.h"
+#include "tangential_law.h"
+
+namespace eepa {
+
+/// What a contact does to its partners. Forces and rolling torque act on i, their opposites
+/// on j; the tangential force also turns both, see torque_on().
+struct Response {
+  double normal_force;        ///< f_hys + f_nd along u [force]
+  double hysteretic_force;    ///< f_hys [force]
+  Vec3 tangential_force;      ///< on i [force]
+  Vec3 rolling_torque;        ///< on i [force length]; unset when the model is RollingNone
+  double friction_bound;      ///< what |f_t| can not exceed, >= 0 [force]
+  Branch branch;
+  bool sliding;
+};
+
+/// Recoverable energies of a contact [force length]
+struct StoredEnergy {
+  double normal = 0.0;        ///< of the hysteretic spring and the pull-off force
+  double tangential = 0.0;    ///< of the tangential spring
+  double rolling = 0.0;       ///< of the rolling spring
+  EEPA_FUNCTION double total() const { return normal + tangential + rolling; }
+};
+
+/// The law of one contact: normal, tangential, damping and rolling composed.
+/// \tparam NormalLaw  PlateauLaw, LinearLaw<UnitExponent> or LinearLaw<GeneralExponent>
+/// \tparam RollingLaw  RollingNone, RollingConstant or RollingSds
+template <class NormalLaw, class RollingLaw> struct ContactLaw {
+  using Normal = NormalLaw;
+  using Rolling = RollingLaw;
+  static constexpr bool has_rolling = RollingLaw::model != RollingModel::none;
+  static constexpr int history_size =
+      RollingLaw::has_spring ? SIZE_WITH_ROLLING : SIZE_WITHOUT_ROLLING;
+
+  /// Forces of a contact and its state after this step.
+  ///
+  /// \param c  coefficients of its pair of types
+  /// \param limit_damping  the normal dashpot adds no tension: f_n >= min(f_hys, 0)
+  /// \param contact  geometry and motion, overlap > 0
+  /// \param time_step  by which the springs are wound [time]; 0 in a set-up call, after which
+  ///        the caller must throw the returned history away
+  /// \param[in,out] history  the state before and after
+  EEPA_FUNCTION static Response evaluate(const Coefficients &c, bool limit_damping,
+                                         const Contact &contact, double time_step, History &history)
+  {
+    Response response;
+    const Scale scale = contact_scale(c, contact.size);
+    const NormalForce normal = NormalLaw::force(c, scale, contact.overlap, history.max_overlap);
+    history.max_overlap = normal.max_overlap;
+    response.branch = normal.branch;
+    response.hysteretic_force = normal.force;
+
+    // dashpots; the stiffness of n != 1 is the loading branch's tangent
+    double stiffness = scale.stiffness() * c.k1;
+    if constexpr (!NormalLaw::Exponent::is_unit)
+      stiffness *= NormalLaw::Exponent::slope(contact.overlap, c, scale);
+    const double root_mass_stiffness = std::sqrt(contact.effective_mass * stiffness);
+    const double normal_part = c.restitution_damping * root_mass_stiffness;
+    double tangential_part = normal_part * c.tangential_ratio;
+    if constexpr (!NormalLaw::Exponent::is_unit)
+      tangential_part = c.restitution_damping *
+          std::sqrt(contact.effective_mass * scale.stiffness() * c.kt);
+    const double viscous_normal = normal_part + scale.force() * c.viscous_normal;
+    const double viscous_tangential = tangential_part + scale.force() * c.viscous_tangential;
+
+    const double normal_velocity = contact.velocity.dot(contact.normal);
+    response.normal_force = normal.force - viscous_normal * normal_velocity;
+    if (limit_damping) {
+      const double least = normal.force < 0.0 ? normal.force : 0.0;
+      if (response.normal_force < least) response.normal_force = least;
+    }
+
+    // friction; the bound has f_hys, never the dashpot
+    const double bound = c.mu * normal.coulomb_force + normal.coulomb_offset;
+    response.friction_bound = bound > 0.0 ? bound : 0.0;
+    const Vec3 velocity = tangential_velocity(contact, normal_velocity);
+    Vec3 &spring = history.tangential_spring;
+    spring = rotate_into_plane(spring, contact.normal) + time_step * velocity;
+    const SliderForce friction =
+        slider_force(scale.stiffness() * c.kt, scale.inverse_size * c.inverse_kt,
+                     viscous_tangential, response.friction_bound, velocity, spring);
+    response.tangential_force = friction.force;
+    response.sliding = friction.sliding;
+
+    if constexpr (has_rolling)
+      response.rolling_torque =
+          RollingLaw::torque(c, scale, contact, std::fabs(normal.force), root_mass_stiffness,
+                             time_step, history.rolling_spring);
+    return response;
+  }
+
+  /// Recoverable energy of a contact.
+  /// \param size, overlap  as in Contact
+  /// \param history  the state that evaluate() left for this overlap
+  EEPA_FUNCTION static StoredEnergy stored_energy(const Coefficients &c, double size,
+                                                  double overlap, const History &history)
+  {
+    const Scale scale = contact_scale(c, size);
+    StoredEnergy energy;
+    energy.normal = NormalLaw::elastic_energy(c, scale, overlap, history.max_overlap);
+    energy.tangential = spring_energy(scale.stiffness() * c.kt, history.tangential_spring);
+    if constexpr (RollingLaw::has_spring)
+      energy.rolling = spring_energy(scale.stiffness() * c.kr, history.rolling_spring);
+    return energy;
+  }
+
+  /// Force on i.
+  EEPA_FUNCTION static Vec3 force_on_i(const Response &response, const Contact &contact)
+  {
+    return response.normal_force * contact.normal + response.tangential_force;
+  }
+
+  /// u x f_t: times -lever_arm() it is the tangential force's torque on either partner.
+  EEPA_FUNCTION static Vec3 tangential_moment(const Response &response, const Contact &contact)
+  {
+    return contact.normal.cross(response.tangential_force);
+  }
+};
+
+}    // namespace eepa
+
+#endif

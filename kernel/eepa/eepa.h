@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_EEPA_H
+#define EEPA_EEPA_H
+
+// The whole kernel. Each header also stands alone.
+
+#include "contact_law.h"
+#include "dispatch.h"
+#include "mixing.h"
+#include "time_step.h"
+#include "validation.h"
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_ROLLING_LAW_H
+#define EEPA_ROLLING_LAW_H
+
+#include "coefficients.h"
+#include "contact.h"
+#include "history.h"
+#include "tangential_law.h"
+
+namespace eepa {
+
+// Rolling models are compile-time policies with one function,
+//   torque(coefficients, scale, contact, |f_hys|, sqrt(m* k), time step, spring)
+// that returns the torque on i; j gets the opposite one. `spring` is read and written by Sds
+// only. All act on the part of omega_i - omega_j in the tangent plane: twisting is free.
+
+/// No rolling resistance.
+struct RollingNone {
+  static constexpr RollingModel model = RollingModel::none;
+  static constexpr bool has_spring = false;
+};
+
+/// Directional constant torque, -mu_r |f_hys| R* along the relative rolling velocity
+/// (article, section 5; Ai et al., Powder Technology 206 (2011) 269, model A).
+///
+/// At slow rolling the torque is capped by a dashpot, c = 2/5 R*^2 sqrt(m* k1), which no
+/// particle with a dozen contacts overshoots below the time-step bound: the torque can
+/// neither drive nor chatter a particle at rest. It is a function of the state alone, so
+/// results converge with the time step.
+struct RollingConstant {
+  static constexpr RollingModel model = RollingModel::constant;
+  static constexpr bool has_spring = false;
+
+  /// \param hysteretic  |f_hys| [force]
+  /// \param root_mass_stiffness  sqrt(m* k) [mass/time]
+  EEPA_FUNCTION static Vec3 torque(const Coefficients &c, const Scale &, const Contact &contact,
+                                   double hysteretic, double root_mass_stiffness, double, Vec3 &)
+  {
+    const double radius = contact.effective_radius;
+    const Vec3 rolling = contact.angular_velocity -
+        contact.angular_velocity.dot(contact.normal) * contact.normal;
+    const double limit = c.mu_r * hysteretic * radius;
+    const double cap = 0.4 * radius * radius * root_mass_stiffness;
+    const double rate_squared = rolling.squaredNorm();
+    if (cap * cap * rate_squared <= limit * limit) return -cap * rolling;
+    return -(limit / std::sqrt(rate_squared)) * rolling;
+  }
+};
+
+/// Spring-dashpot-slider on the rolling displacement (Luding 2008, section 2.4; as `rolling
+/// sds` of LAMMPS's pair_style granular).
+///
+/// Pseudo-force f_r = -kr xi_r - gr v_r with v_r = R* (omega_i - omega_j) x u, bounded by
+/// mu_r |f_hys|; torque R* u x f_r.
+struct RollingSds {
+  static constexpr RollingModel model = RollingModel::sds;
+  static constexpr bool has_spring = true;
+
+  EEPA_FUNCTION static Vec3 torque(const Coefficients &c, const Scale &scale,
+                                   const Contact &contact, double hysteretic, double,
+                                   double time_step, Vec3 &spring)
+  {
+    const double radius = contact.effective_radius;
+    const Vec3 velocity = radius * contact.angular_velocity.cross(contact.normal);
+    spring = rotate_into_plane(spring, contact.normal) + time_step * velocity;
+    const SliderForce roll =
+        slider_force(scale.stiffness() * c.kr, scale.inverse_size * c.inverse_kr,
+                     scale.force() * c.rolling_viscous, c.mu_r * hysteretic, velocity, spring);
+    return radius * contact.normal.cross(roll.force);
+  }
+};
+
+}    // namespace eepa
+
+#endif

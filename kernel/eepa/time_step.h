@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_TIME_STEP_H
+#define EEPA_TIME_STEP_H
+
+#include "coefficients.h"
+
+#include <cmath>
+
+namespace eepa {
+
+/// Overlap, as a fraction of the contact's size, at which the tangent stiffness of an exponent
+/// n != 1 is taken for the time-step bound: it grows with overlap, and a fraction of 5% is the
+/// most that a sound simulation of stiff particles shows.
+constexpr double time_step_overlap_fraction = 0.05;
+
+/// Largest stiffness of a contact of size d, over its branches and directions [force/length].
+/// \param c  coefficients of its pair of types
+/// \param size  d, as in Contact [length]
+EEPA_FUNCTION double largest_stiffness(const Coefficients &c, double size)
+{
+  const Scale scale = contact_scale(c, size);
+  const double slope = c.exponent *
+      std::pow(time_step_overlap_fraction * size * scale.inverse_size, c.exponent - 1.0);
+  const double normal = (c.k2 > c.k_adh ? c.k2 : c.k_adh) * slope;
+  return scale.stiffness() * (normal > c.kt ? normal : c.kt);
+}
+
+/// Largest stable time step of a contact, 0.2 sqrt(m/k) (article, section 6).
+/// \param mass  the lighter partner's mass, > 0
+/// \param stiffness  largest_stiffness() of the contact [force/length], > 0
+EEPA_FUNCTION double largest_time_step(double mass, double stiffness)
+{
+  return 0.2 * std::sqrt(mass / stiffness);
+}
+
+}    // namespace eepa
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_VECTOR_H
+#define EEPA_VECTOR_H
+
+#include "macros.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace eepa {
+
+/// A vector of three doubles: 24 bytes, no alignment demand, never on the heap.
+using Vec3 = Eigen::Vector3d;
+
+/// Carries a tangent-plane vector of the last step over to the plane of this step.
+///
+/// The part along `normal` is removed and the length restored, so that a spring neither
+/// gains nor loses energy when its contact rolls around (Luding 2008, section 2.3).
+/// \param spring  vector in the old tangent plane, any dimension
+/// \param normal  present unit normal
+/// \return the rotated vector; zero where `spring` is parallel to `normal`
+EEPA_FUNCTION Vec3 rotate_into_plane(const Vec3 &spring, const Vec3 &normal)
+{
+  const double length_squared = spring.squaredNorm();
+  const Vec3 projected = spring - spring.dot(normal) * normal;
+  const double projected_squared = projected.squaredNorm();
+  // below the smallest normal number the ratio is meaningless, and so is the spring
+  if (!(projected_squared > 2.3e-308)) return Vec3::Zero();
+  return std::sqrt(length_squared / projected_squared) * projected;
+}
+
+}    // namespace eepa
+
+#endif

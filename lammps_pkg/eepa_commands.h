@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef LMP_EEPA_COMMANDS_H
+#define LMP_EEPA_COMMANDS_H
+
+#include <eepa/parameters.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+// The one parser of everything that a pair_style, a pair_coeff and a wall have in common. It
+// knows nothing of LAMMPS, so that it can be tested and fuzzed alone.
+
+namespace eepa {
+
+using Words = std::vector<std::string>;
+
+/// What to do about a time step above the stable one.
+enum class TimeStepCheck { off, warn, error };
+
+/// pair_style gran/eepa ...
+struct StyleArguments {
+  LawSettings settings;
+  TimeStepCheck time_step_check = TimeStepCheck::warn;
+};
+
+/// Reads `plateau|linear [scale d_ref] [exponent n] [limit_damping yes|no]
+/// [dtcheck warn|error|off]` from words[first] on.
+/// \param stop  a word that ends the arguments, or "" when they go to the end
+/// \return index of the first word not read
+/// \throw std::invalid_argument naming argument, value and what is allowed
+std::size_t parse_style(const Words &words, std::size_t first, const std::string &stop,
+                        StyleArguments &style);
+
+/// Reads `k1 k2 k_adh f0 mu [kt v] [restitution e | viscous Bn Bt]
+/// [rolling none|constant mu_r|sds kr gr mu_r]` from words[first] on and validates it.
+/// \param warnings  gets what deserves a line in the log
+/// \return index of the first word not read
+/// \throw std::invalid_argument naming argument, value and what is allowed
+std::size_t parse_parameters(const Words &words, std::size_t first, const std::string &stop,
+                             const LawSettings &settings, Parameters &parameters,
+                             Words &warnings);
+
+/// Reads a finite number.
+/// \throw std::invalid_argument naming `name` and the word
+double parse_number(const std::string &name, const std::string &word);
+
+/// Validates parameters once more, after settings changed or types were mixed.
+/// \throw std::invalid_argument with every message
+void require_valid(const Parameters &parameters, const LawSettings &settings, Words &warnings);
+
+/// The words that parse_parameters() reads back to the same parameters, to the last bit.
+std::string to_words(const Parameters &parameters);
+
+constexpr std::size_t packed_style_size = 7;
+constexpr std::size_t packed_parameters_size = 15;
+
+/// Plain numbers for restart files, the format's version among the style's.
+std::array<double, packed_style_size> pack(const StyleArguments &style);
+std::array<double, packed_parameters_size> pack(const Parameters &parameters);
+
+/// \throw std::invalid_argument when another version of this package wrote them
+StyleArguments unpack_style(const std::array<double, packed_style_size> &numbers);
+Parameters unpack_parameters(const std::array<double, packed_parameters_size> &numbers);
+
+}    // namespace eepa
+
+#endif
