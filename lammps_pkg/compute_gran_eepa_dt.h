@@ -1,0 +1,26 @@
+/* -*- c++ -*- SPDX-License-Identifier: GPL-2.0-only */
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(gran/eepa/dt,ComputeGranEepaDt);
+// clang-format on
+#else
+
+#ifndef LMP_COMPUTE_GRAN_EEPA_DT_H
+#define LMP_COMPUTE_GRAN_EEPA_DT_H
+
+#include "compute.h"
+
+namespace LAMMPS_NS {
+
+/// The largest stable time step over all contacts of gran/eepa, walls included.
+class ComputeGranEepaDt : public Compute {
+ public:
+  ComputeGranEepaDt(class LAMMPS *, int, char **);
+  void init() override;
+  double compute_scalar() override;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "contact_masses.h"
+
+#include "atom.h"
+#include "error.h"
+#include "fix.h"
+#include "modify.h"
+
+#include <limits>
+
+using namespace LAMMPS_NS;
+
+void ContactMasses::init(const char *command)
+{
+  const auto freezes = modify->get_fix_by_style("^freeze");
+  if (freezes.size() > 1)
+    error->all(FLERR, "{}: {} fix freeze commands are active, one is allowed", command,
+               freezes.size());
+  freeze_groupbit_ = freezes.empty() ? 0 : freezes.front()->groupbit;
+
+  fix_rigid_ = nullptr;
+  for (auto *fix : modify->get_fix_list()) {
+    if (!fix->rigid_flag) continue;
+    if (fix_rigid_)
+      error->all(FLERR, "{}: fix rigid {} and {} are both active, one is allowed", command,
+                 fix_rigid_->id, fix->id);
+    fix_rigid_ = fix;
+  }
+}
+
+void ContactMasses::collect_bodies()
+{
+  int dim;
+  const auto *body = static_cast<int *>(fix_rigid_->extract("body", dim));
+  const auto *total = static_cast<double *>(fix_rigid_->extract("masstotal", dim));
+  body_mass_.assign(atom->nmax, 0.0);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (body[i] >= 0) body_mass_[i] = total[body[i]];
+}
+
+const double *ContactMasses::masses()
+{
+  if (!fix_rigid_ && !freeze_groupbit_) return atom->rmass;
+
+  const int nall = atom->nlocal + atom->nghost;
+  const bool bodies = fix_rigid_ && !body_mass_.empty();    // not before the first force call
+  mass_.resize(nall);
+  for (int i = 0; i < nall; i++) {
+    mass_[i] = atom->rmass[i];
+    if (bodies && body_mass_[i] > 0.0) mass_[i] = body_mass_[i];
+    if (atom->mask[i] & freeze_groupbit_) mass_[i] = std::numeric_limits<double>::infinity();
+  }
+  return mass_.data();
+}
+
+double ContactMasses::memory_usage() const
+{
+  return static_cast<double>((mass_.capacity() + body_mass_.capacity()) * sizeof(double));
+}

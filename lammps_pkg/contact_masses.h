@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef LMP_EEPA_CONTACT_MASSES_H
+#define LMP_EEPA_CONTACT_MASSES_H
+
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class Fix;
+
+/// The mass that each particle brings to a contact: its own, that of its rigid body, or
+/// infinity where fix freeze holds it. One for the pair style and each wall.
+class ContactMasses : protected Pointers {
+ public:
+  explicit ContactMasses(LAMMPS *lmp) : Pointers(lmp) {}
+
+  /// Looks up fix freeze and fix rigid; LAMMPS errors if there are several of either.
+  void init(const char *command);
+
+  /// Masses of owned atoms, and of ghosts once update_ghosts() sent them; call each step.
+  /// \return nlocal + nghost masses, valid until the next call
+  const double *masses();
+
+  /// Whether ghosts need the body masses that pack() and unpack() carry.
+  bool has_bodies() const { return fix_rigid_ != nullptr; }
+  /// Takes body masses of owned atoms from fix rigid, after each reneighbouring.
+  void collect_bodies();
+  double &body_mass(int i) { return body_mass_[i]; }
+
+  int freeze_groupbit() const { return freeze_groupbit_; }
+  double memory_usage() const;
+
+ private:
+  Fix *fix_rigid_ = nullptr;
+  int freeze_groupbit_ = 0;
+  std::vector<double> body_mass_;    // 0 for a particle in no body
+  std::vector<double> mass_;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "eepa_styles.h"
+
+#include "compute_gran_eepa_contacts.h"
+#include "compute_gran_eepa_dt.h"
+#include "fix_wall_gran_eepa.h"
+#include "pair_gran_eepa.h"
+
+#include "force.h"
+#include "lammps.h"
+#include "modify.h"
+
+#include <string>
+
+using namespace LAMMPS_NS;
+
+namespace {
+template <class Style> Pair *pair_maker(LAMMPS *lmp)
+{
+  return new Style(lmp);
+}
+template <class Base, class Style> Base *maker(LAMMPS *lmp, int narg, char **arg)
+{
+  return new Style(lmp, narg, arg);
+}
+}    // namespace
+
+const std::vector<EepaStyle> &LAMMPS_NS::eepa_styles()
+{
+  static const std::vector<EepaStyle> styles = {
+      {"pair", "gran/eepa", "elasto-plastic adhesive frictional contact law",
+       pair_maker<PairGranEepa>, nullptr, nullptr},
+      {"fix", "wall/gran/eepa", "walls of pair style gran/eepa", nullptr,
+       maker<Fix, FixWallGranEepa>, nullptr},
+      {"compute", "gran/eepa/contacts", "contacts by branch, coordination number", nullptr, nullptr,
+       maker<Compute, ComputeGranEepaContacts>},
+      {"compute", "gran/eepa/dt", "largest stable time step", nullptr, nullptr,
+       maker<Compute, ComputeGranEepaDt>},
+  };
+  return styles;
+}
+
+void LAMMPS_NS::register_eepa_styles(LAMMPS *lmp)
+{
+  for (const auto &style : eepa_styles()) {
+    const std::string name = style.name;
+    if (style.make_pair) (*lmp->force->pair_map)[name] = style.make_pair;
+    if (style.make_fix) (*lmp->modify->fix_map)[name] = style.make_fix;
+    if (style.make_compute) (*lmp->modify->compute_map)[name] = style.make_compute;
+  }
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef LMP_EEPA_STYLES_H
+#define LMP_EEPA_STYLES_H
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class Pair;
+class Fix;
+class Compute;
+class LAMMPS;
+
+/// A style of this package and how it is made. One list serves the plugin, build/lmp and the
+/// tests.
+struct EepaStyle {
+  const char *category;    // "pair", "fix" or "compute"
+  const char *name;
+  const char *info;
+  Pair *(*make_pair)(LAMMPS *);                   // set where category says so
+  Fix *(*make_fix)(LAMMPS *, int, char **);
+  Compute *(*make_compute)(LAMMPS *, int, char **);
+};
+
+const std::vector<EepaStyle> &eepa_styles();
+
+/// Makes the styles known to one LAMMPS instance that this code is linked with.
+void register_eepa_styles(LAMMPS *lmp);
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// Entry of eepaplugin.so: `plugin load eepaplugin.so`, or LAMMPS_PLUGIN_PATH.
+
+#include "eepa_styles.h"
+
+#include "error.h"
+#include "lammps.h"
+#include "lammpsplugin.h"
+#include "library.h"
+#include "lmptype.h"
+#include "utils.h"
+#include "version.h"
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+// What the plugin was compiled for. LAMMPS only logs a mismatch of versions and knows nothing of
+// integer sizes; both change the layout of classes, and a run would crash or be wrong. The
+// questions go through the C library interface, which does not depend on that layout.
+void require_same_lammps(LAMMPS *lmp)
+{
+  if (lammps_version(lmp) != utils::date2num(LAMMPS_VERSION))
+    lmp->error->all(FLERR,
+                    "plugin eepaplugin.so was compiled for LAMMPS version {} and can not be loaded "
+                    "into version {}: compile it against that version",
+                    utils::date2num(LAMMPS_VERSION), lammps_version(lmp));
+  const auto tagint_size = static_cast<int>(sizeof(tagint));
+  const auto bigint_size = static_cast<int>(sizeof(bigint));
+  const auto imageint_size = static_cast<int>(sizeof(imageint));
+  if (lammps_extract_setting(lmp, "tagint") != tagint_size ||
+      lammps_extract_setting(lmp, "bigint") != bigint_size ||
+      lammps_extract_setting(lmp, "imageint") != imageint_size)
+    lmp->error->all(FLERR,
+                    "plugin eepaplugin.so was compiled for tagint, bigint and imageint of {}, {} and "
+                    "{} bytes and can not be loaded into a LAMMPS with {}, {} and {}: compile it with "
+                    "the same LAMMPS_SIZES",
+                    tagint_size, bigint_size, imageint_size,
+                    lammps_extract_setting(lmp, "tagint"), lammps_extract_setting(lmp, "bigint"),
+                    lammps_extract_setting(lmp, "imageint"));
+}
+
+}    // namespace
+
+extern "C" void lammpsplugin_init(void *lammps, void *handle, void *register_function)
+{
+  auto *lmp = static_cast<LAMMPS *>(lammps);
+  require_same_lammps(lmp);
+  const auto register_plugin = reinterpret_cast<lammpsplugin_regfunc>(register_function);
+  for (const auto &style : eepa_styles()) {
+    lammpsplugin_t plugin;
+    plugin.version = LAMMPS_VERSION;
+    plugin.style = style.category;
+    plugin.name = style.name;
+    plugin.info = style.info;
+    plugin.author = "the eepa developers";
+    plugin.handle = handle;
+    if (style.make_pair)
+      plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(style.make_pair);
+    else if (style.make_fix)
+      plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(style.make_fix);
+    else
+      plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(style.make_compute);
+    (*register_plugin)(&plugin, lmp);
+  }
+}

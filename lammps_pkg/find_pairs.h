@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef LMP_EEPA_FIND_PAIRS_H
+#define LMP_EEPA_FIND_PAIRS_H
+
+#include "pair_gran_eepa.h"
+
+#include "force.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Every pair style gran/eepa in use: none, one, or several as sub-styles of hybrid.
+inline std::vector<PairGranEepa *> find_eepa_pairs(Force *force)
+{
+  std::vector<PairGranEepa *> found;
+  // where there is only one, alone or in hybrid, it answers to every number
+  for (int nth = 1;; nth++) {
+    auto *pair = dynamic_cast<PairGranEepa *>(force->pair_match("^gran/eepa", 0, nth));
+    if (!pair || (!found.empty() && found.back() == pair)) break;
+    found.push_back(pair);
+  }
+  return found;
+}
+
+}    // namespace LAMMPS_NS
+
+#endif

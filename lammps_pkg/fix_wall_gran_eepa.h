@@ -1,0 +1,133 @@
+/* -*- c++ -*- SPDX-License-Identifier: GPL-2.0-only */
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(wall/gran/eepa,FixWallGranEepa);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_WALL_GRAN_EEPA_H
+#define LMP_FIX_WALL_GRAN_EEPA_H
+
+#include "fix.h"
+
+#include "contact_masses.h"
+#include "eepa_commands.h"
+#include "pair_gran_eepa.h"    // TimeStepBound
+#include "wall_surface.h"
+
+#include <eepa/coefficients.h>
+
+#include <array>
+#include <string>
+
+namespace LAMMPS_NS {
+
+/// fix wall/gran/eepa: walls whose contacts obey the same law as those of particles. Each
+/// surface (both planes, the cylinder) keeps its own history with every particle.
+class FixWallGranEepa : public Fix {
+ public:
+  FixWallGranEepa(class LAMMPS *, int, char **);
+  ~FixWallGranEepa() override;
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void post_force(int) override;
+  void reset_dt() override;
+  double compute_vector(int) override;
+  double memory_usage() override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int maxsize_restart() override;
+  int size_restart(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+  /// The largest stable time step of the contacts with this wall. Collective.
+  TimeStepBound largest_time_step();
+
+ private:
+  /// the global vector
+  enum {
+    FORCE_X,    ///< of the particles on the wall, all surfaces together
+    FORCE_Y,
+    FORCE_Z,
+    POSITION,    ///< of the first surface along its normal
+    VELOCITY,
+    CONTACTS,
+    FIRST_FORCE_X,    ///< on the first surface (lo, or the only one)
+    FIRST_FORCE_Y,
+    FIRST_FORCE_Z,
+    SECOND_FORCE_X,    ///< on the second surface (hi next to lo), else 0
+    SECOND_FORCE_Y,
+    SECOND_FORCE_Z,
+    N_VECTOR
+  };
+  /// the per-atom table that keyword `contacts` asks for
+  enum {
+    ATOM_CONTACTS,    ///< surfaces in contact
+    ATOM_FORCE_X,     ///< on the particle, all surfaces together
+    ATOM_FORCE_Y,
+    ATOM_FORCE_Z,
+    ATOM_POINT_X,    ///< contact point, of the deepest contact as all below
+    ATOM_POINT_Y,
+    ATOM_POINT_Z,
+    ATOM_OVERLAP,
+    ATOM_MAX_OVERLAP,
+    ATOM_BRANCH,
+    ATOM_SLIP,
+    N_ATOM
+  };
+  enum class Motion { still, velocity, wiggle, shear };
+  /// what a surface felt in the last force call, this rank's part
+  struct SurfaceSum {
+    double force[3];
+    double contacts;
+  };
+
+  eepa::StyleArguments style;
+  eepa::Parameters parameters;
+  eepa::Coefficients coefficients;
+  ContactMasses masses;
+  WallSurfaces surfaces;
+
+  Motion motion = Motion::still;
+  std::array<std::string, 3> velocity_variable;    // empty where a number was given
+  std::array<double, 3> velocity = {0.0, 0.0, 0.0};
+  std::array<double, 3> displacement = {0.0, 0.0, 0.0};
+  int motion_axis = 0;
+  double amplitude = 0.0, period = 0.0, shear_velocity = 0.0;
+  bigint time_origin = 0;
+
+  double dt = 0.0;
+  int history_size;    // values of one contact
+  int n_values;        // values of all surfaces
+  double **history = nullptr;    // nmax x n_values, delta_max = 0 where there is no contact
+  bool contact_table = false;
+  std::array<SurfaceSum, 2> felt;
+  std::array<double, N_VECTOR> felt_vector;
+  bigint felt_reduced = -1;
+
+  typedef void (FixWallGranEepa::*Loop)();
+  Loop loop = nullptr;
+
+  int parse_wall(int narg, char **arg, int iarg);
+  int parse_motion(int narg, char **arg, int iarg);
+  double number(const char *name, const char *word);
+  int dimension(const char *name, const char *word);
+  void require(int narg, int iarg, int count, const char *what);
+  void evaluate_velocity();
+  void move_surfaces();
+  template <class ContactLaw> void contact_loop();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

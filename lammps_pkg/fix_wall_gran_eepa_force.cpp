@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// Where FixWallGranEepa calls the law, and how its surfaces move.
+
+#include "fix_wall_gran_eepa.h"
+
+#include <eepa/dispatch.h>
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "input.h"
+#include "math_const.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+#include "variable.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using eepa::Vec3;
+
+void FixWallGranEepa::evaluate_velocity()
+{
+  const bool any = std::any_of(velocity_variable.begin(), velocity_variable.end(),
+                               [](const std::string &name) { return !name.empty(); });
+  if (!any) return;
+  modify->clearstep_compute();
+  for (int k = 0; k < 3; k++) {
+    if (velocity_variable[k].empty()) continue;
+    velocity[k] = input->variable->compute_equal(
+        input->variable->find(velocity_variable[k].c_str()));
+  }
+  modify->addstep_compute(update->ntimestep + 1);
+}
+
+void FixWallGranEepa::initial_integrate(int /*vflag*/)
+{
+  if (motion != Motion::velocity) return;
+  // the positions that the next force call meets are those of the end of this step
+  evaluate_velocity();
+  for (int k = 0; k < 3; k++) displacement[k] += velocity[k] * dt;
+}
+
+void FixWallGranEepa::move_surfaces()
+{
+  surfaces.velocity = {0.0, 0.0, 0.0};
+  surfaces.surface_speed = 0.0;
+  surfaces.displacement = {0.0, 0.0, 0.0};
+  switch (motion) {
+    case Motion::still: break;
+    case Motion::velocity:
+      surfaces.velocity = velocity;
+      surfaces.displacement = displacement;
+      break;
+    case Motion::wiggle: {
+      const double omega = MathConst::MY_2PI / period;
+      const double phase = omega * dt * static_cast<double>(update->ntimestep - time_origin);
+      surfaces.displacement[motion_axis] = amplitude - amplitude * std::cos(phase);
+      surfaces.velocity[motion_axis] = amplitude * omega * std::sin(phase);
+      break;
+    }
+    case Motion::shear:
+      if (surfaces.is_plane() || motion_axis == 2)
+        surfaces.velocity[motion_axis] = shear_velocity;
+      else
+        surfaces.surface_speed = shear_velocity;
+      break;
+  }
+}
+
+void FixWallGranEepa::setup(int vflag)
+{
+  if (motion == Motion::velocity) evaluate_velocity();
+  if (style.time_step_check != eepa::TimeStepCheck::off) {
+    const TimeStepBound bound = largest_time_step();
+    if (update->dt > bound.time_step) {
+      const auto message = fmt::format(
+          "fix {} wall/gran/eepa: timestep {:.6g} is larger than {:.6g} = 0.2 sqrt(m_min/k_max) of "
+          "contacts with this wall",
+          id, update->dt, bound.time_step);
+      if (style.time_step_check == eepa::TimeStepCheck::error)
+        error->all(FLERR, message);
+      else if (comm->me == 0)
+        error->warning(FLERR, message);
+    }
+  }
+  post_force(vflag);
+}
+
+void FixWallGranEepa::post_force(int /*vflag*/)
+{
+  if (!loop)
+    eepa::with_law(style.settings, parameters.rolling, [this](auto law) {
+      loop = &FixWallGranEepa::contact_loop<decltype(law)>;
+    });
+  if (masses.has_bodies() && neighbor->ago == 0) masses.collect_bodies();
+  move_surfaces();
+  felt = {};
+  felt_reduced = -1;
+  (this->*loop)();
+}
+
+template <class ContactLaw> void FixWallGranEepa::contact_loop()
+{
+  double **x = atom->x;
+  double **v = atom->v;
+  double **f = atom->f;
+  double **omega = atom->omega;
+  double **torque = atom->torque;
+  const double *radius = atom->radius;
+  const double *mass = masses.masses();
+  const bool store = update->setupflag == 0;
+  const double time_step = store ? dt : 0.0;
+  const int n_surfaces = surfaces.count();
+  constexpr bool rolling_spring = ContactLaw::Rolling::has_spring;
+
+  eepa::Contact contact;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
+    if (!(atom->mask[i] & groupbit)) continue;
+
+    for (int surface = 0; surface < n_surfaces; surface++) {
+      double *values = history[i] + static_cast<std::ptrdiff_t>(surface) * ContactLaw::history_size;
+      const SurfacePoint point = surfaces.nearest(surface, x[i], radius[i]);
+      if (point.overlap <= 0.0) {
+        if (values[eepa::MAX_OVERLAP] != 0.0)
+          eepa::store_history<rolling_spring>(eepa::History(), values);
+        continue;
+      }
+
+      contact.normal = point.normal;
+      contact.overlap = point.overlap;
+      contact.size = 2.0 * radius[i];
+      // the wall: a partner of infinite mass and radius that does not turn
+      contact.effective_mass = std::isinf(mass[i]) ? 0.0 : mass[i];
+      contact.effective_radius = radius[i];
+      const double arm = eepa::lever_arm(radius[i], point.overlap);
+      contact.velocity = Vec3(v[i]) - point.velocity;
+      contact.spin = arm * Vec3(omega[i]);
+      contact.angular_velocity = Vec3(omega[i]);
+
+      eepa::History state = eepa::load_history<rolling_spring>(values);
+      const eepa::Response response = ContactLaw::evaluate(
+          coefficients, style.settings.limit_damping, contact, time_step, state);
+      if (store) eepa::store_history<rolling_spring>(state, values);
+
+      const Vec3 force = ContactLaw::force_on_i(response, contact);
+      Vec3 turn = -arm * ContactLaw::tangential_moment(response, contact);
+      if constexpr (ContactLaw::has_rolling) turn += response.rolling_torque;
+      for (int k = 0; k < 3; k++) {
+        f[i][k] += force[k];
+        torque[i][k] += turn[k];
+        felt[surface].force[k] -= force[k];
+      }
+      felt[surface].contacts += 1.0;
+
+      if (contact_table) {
+        double *row = array_atom[i];
+        row[ATOM_CONTACTS] += 1.0;
+        for (int k = 0; k < 3; k++) row[ATOM_FORCE_X + k] += force[k];
+        if (point.overlap > row[ATOM_OVERLAP]) {
+          const double reach = radius[i] - point.overlap;
+          for (int k = 0; k < 3; k++) row[ATOM_POINT_X + k] = x[i][k] - reach * point.normal[k];
+          row[ATOM_OVERLAP] = point.overlap;
+          row[ATOM_MAX_OVERLAP] = state.max_overlap;
+          row[ATOM_BRANCH] = static_cast<int>(response.branch);
+          row[ATOM_SLIP] = response.sliding ? 1.0 : 0.0;
+        }
+      }
+    }
+  }
+}
+
+double FixWallGranEepa::compute_vector(int n)
+{
+  if (felt_reduced != update->ntimestep) {
+    double mine[8], all[8];
+    for (int s = 0; s < 2; s++) {
+      std::copy_n(felt[s].force, 3, mine + 4 * s);
+      mine[4 * s + 3] = felt[s].contacts;
+    }
+    MPI_Allreduce(mine, all, 8, MPI_DOUBLE, MPI_SUM, world);
+    for (int k = 0; k < 3; k++) {
+      felt_vector[FIRST_FORCE_X + k] = all[k];
+      felt_vector[SECOND_FORCE_X + k] = all[4 + k];
+      felt_vector[FORCE_X + k] = all[k] + all[4 + k];
+    }
+    felt_vector[CONTACTS] = all[3] + all[7];
+    felt_reduced = update->ntimestep;
+  }
+  felt_vector[POSITION] = surfaces.position();
+  felt_vector[VELOCITY] = surfaces.normal_velocity();
+  return felt_vector[n];
+}

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// What PairGranEepa does outside the force call: commands, set-up, restart.
+
+#include "pair_gran_eepa.h"
+
+#include <eepa/mixing.h>
+#include <eepa/time_step.h>
+
+#include "atom.h"
+#include "citeme.h"
+#include "comm.h"
+#include "error.h"
+#include "fix.h"
+#include "fix_neigh_history.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+using namespace LAMMPS_NS;
+
+namespace {
+constexpr const char *style_name = "pair_style gran/eepa";
+
+constexpr const char *citation =
+    "pair style gran/eepa: doi:10.1007/s10035-014-0506-4, doi:10.1016/j.powtec.2015.06.025\n\n"
+    "@Article{Thakur2014,\n"
+    " author =  {S. C. Thakur and J. P. Morrissey and J. Sun and J. F. Chen and J. Y. Ooi},\n"
+    " title =   {Micromechanical analysis of cohesive granular materials using the discrete\n"
+    "            element method with an adhesive elasto-plastic contact model},\n"
+    " journal = {Granular Matter},\n"
+    " year =    2014,\n"
+    " volume =  16,\n"
+    " pages =   {383}\n"
+    "}\n\n"
+    "@Article{Thakur2016,\n"
+    " author =  {S. C. Thakur and J. Y. Ooi and H. Ahmadian},\n"
+    " title =   {Scaling of discrete element model parameters for cohesionless and cohesive\n"
+    "            solid},\n"
+    " journal = {Powder Technology},\n"
+    " year =    2016,\n"
+    " volume =  293,\n"
+    " pages =   {130}\n"
+    "}\n\n";
+
+template <std::size_t N> void write_numbers(const std::array<double, N> &numbers, FILE *fp)
+{
+  fwrite(numbers.data(), sizeof(double), N, fp);
+}
+}    // namespace
+
+PairGranEepa::PairGranEepa(LAMMPS *lmp) : Pair(lmp), masses(lmp)
+{
+  if (lmp->citeme) lmp->citeme->add(citation);
+  single_enable = 1;
+  no_virial_fdotr_compute = 1;    // friction is not central: tallied pair by pair
+  centroidstressflag = CENTROID_NOTAVAIL;
+  finitecutflag = 1;
+  writedata = 1;
+  comm_forward = 1;    // body masses for fix rigid
+  single_extra = N_SINGLE;
+  svector = new double[N_SINGLE];
+
+  // takes the place that the history fix will have among the fixes
+  modify->add_fix(history_id() + "_DUMMY all DUMMY");
+}
+
+PairGranEepa::~PairGranEepa()
+{
+  if (copymode) return;
+  delete[] svector;
+  svector = nullptr;
+  modify->delete_fix(fix_history ? history_id() : history_id() + "_DUMMY");
+  if (allocated) {
+    memory->destroy(setflag);
+    memory->destroy(cutsq);
+  }
+}
+
+std::string PairGranEepa::history_id() const
+{
+  return "NEIGH_HISTORY_EEPA" + std::to_string(instance_me);
+}
+
+int PairGranEepa::history_size() const
+{
+  return rolling == eepa::RollingModel::sds ? eepa::SIZE_WITH_ROLLING : eepa::SIZE_WITHOUT_ROLLING;
+}
+
+void PairGranEepa::allocate()
+{
+  allocated = 1;
+  const int n = ntypes_allocated = atom->ntypes;
+  memory->create(setflag, n + 1, n + 1, "pair:setflag");
+  for (int i = 1; i <= n; i++)
+    for (int j = i; j <= n; j++) setflag[i][j] = 0;
+  memory->create(cutsq, n + 1, n + 1, "pair:cutsq");
+  parameters.assign((n + 1) * (n + 1), eepa::Parameters());
+  coefficients.assign((n + 1) * (n + 1), eepa::Coefficients());
+}
+
+void PairGranEepa::warn(const eepa::Words &warnings)
+{
+  if (warnings.empty() || plateau_warned) return;
+  plateau_warned = true;
+  if (comm->me == 0) error->warning(FLERR, "{}: {}", style_name, warnings.front());
+}
+
+/* ---------------------------------------------------------------------- commands */
+
+void PairGranEepa::settings(int narg, char **arg)
+{
+  eepa::StyleArguments given;
+  try {
+    eepa::parse_style(eepa::Words(arg, arg + narg), 0, "", given);
+  } catch (const std::invalid_argument &e) {
+    error->all(FLERR, "{}: {}", style_name, e.what());
+  }
+  style = given;
+  plateau_warned = false;
+}
+
+void PairGranEepa::coeff(int narg, char **arg)
+{
+  if (narg < 2) error->all(FLERR, "pair_coeff for gran/eepa: missing types I J");
+  if (!allocated) allocate();
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+
+  eepa::Parameters given;
+  eepa::Words warnings;
+  try {
+    eepa::parse_parameters(eepa::Words(arg, arg + narg), 2, "", style.settings, given, warnings);
+  } catch (const std::invalid_argument &e) {
+    error->all(FLERR, "pair_coeff {} {} for gran/eepa: {}", arg[0], arg[1], e.what());
+  }
+  warn(warnings);
+
+  int count = 0;
+  for (int i = ilo; i <= ihi; i++) {
+    for (int j = std::max(jlo, i); j <= jhi; j++) {
+      parameters[pair_index(i, j)] = parameters[pair_index(j, i)] = given;
+      setflag[i][j] = 1;
+      count++;
+    }
+  }
+  if (count == 0)
+    error->all(FLERR, "pair_coeff {} {} for gran/eepa: no pair of types with I <= J", arg[0],
+               arg[1]);
+}
+
+/* ---------------------------------------------------------------------- set-up */
+
+void PairGranEepa::init_style()
+{
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+    error->all(FLERR,
+               "{}: atoms must have radius, rmass, omega and torque; use atom_style sphere",
+               style_name);
+  if (!comm->ghost_velocity)
+    error->all(FLERR, "{}: ghost atoms must have velocities; use comm_modify vel yes", style_name);
+  if (!atom->tag_enable)
+    error->all(FLERR, "{}: atoms must have IDs; use atom_modify id yes", style_name);
+
+  neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
+  dt = update->dt;
+  masses.init(style_name);
+  init_radii();
+
+  // one rolling law serves all pairs of types: those without take part with mu_r = 0
+  rolling = eepa::RollingModel::none;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (!setflag[i][j]) continue;
+      const eepa::RollingModel model = parameters[pair_index(i, j)].rolling;
+      if (model == eepa::RollingModel::none) continue;
+      if (rolling != eepa::RollingModel::none && rolling != model)
+        error->all(FLERR,
+                   "{}: pair_coeff {} {} has another rolling model than those before; constant and "
+                   "sds can not be used together",
+                   style_name, i, j);
+      rolling = model;
+    }
+  }
+  init_history();
+  choose_law();
+}
+
+void PairGranEepa::init_history()
+{
+  const int size = history_size();
+  if (restart_history_size && restart_history_size != size)
+    error->all(FLERR,
+               "{}: the restart file has {} values a contact and the pair_coeffs need {}; rolling "
+               "sds can not be switched on or off with a restart",
+               style_name, restart_history_size, size);
+  if (!fix_history) {
+    fix_history = dynamic_cast<FixNeighHistory *>(modify->replace_fix(
+        history_id() + "_DUMMY", fmt::format("{} all NEIGH_HISTORY {}", history_id(), size), 1));
+    fix_history->pair = this;
+  } else if (fix_history->get_dnum() != size) {
+    error->all(FLERR, "{}: rolling sds can not be switched on or off after a run", style_name);
+  }
+}
+
+void PairGranEepa::init_radii()
+{
+  const int n = atom->ntypes;
+  std::vector<double> dynamic(n + 1, 0.0), frozen(n + 1, 0.0);
+  // particles that fix pour and fix deposit will insert
+  for (const char *inserting : {"^pour", "^deposit"}) {
+    for (auto *fix : modify->get_fix_by_style(inserting)) {
+      for (int itype = 1; itype <= n; itype++) {
+        int dim = itype;
+        const auto *radius = static_cast<double *>(fix->extract("radius", dim));
+        if (radius) dynamic[itype] = std::max(dynamic[itype], *radius);
+      }
+    }
+  }
+  for (int i = 0; i < atom->nlocal; i++) {
+    std::vector<double> &radii = (atom->mask[i] & masses.freeze_groupbit()) ? frozen : dynamic;
+    radii[atom->type[i]] = std::max(radii[atom->type[i]], atom->radius[i]);
+  }
+  max_radius_dynamic.assign(n + 1, 0.0);
+  max_radius_frozen.assign(n + 1, 0.0);
+  MPI_Allreduce(dynamic.data(), max_radius_dynamic.data(), n + 1, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(frozen.data(), max_radius_frozen.data(), n + 1, MPI_DOUBLE, MPI_MAX, world);
+}
+
+double PairGranEepa::init_one(int i, int j)
+{
+  if (!allocated) allocate();
+  eepa::Parameters &own = parameters[pair_index(i, j)];
+  eepa::Words warnings;
+  if (setflag[i][j] == 0) {
+    std::string why;
+    if (setflag[i][i] == 0 || setflag[j][j] == 0)
+      error->all(FLERR, "{}: pair_coeff {} {} is not given and can not be mixed without {} {} and {} {}",
+                 style_name, i, j, i, i, j, j);
+    if (!eepa::mix(parameters[pair_index(i, i)], parameters[pair_index(j, j)], own, why))
+      error->all(FLERR, "{}: pair_coeff {} {} can not be mixed: {}; give it", style_name, i, j,
+                 why);
+  }
+  try {
+    eepa::require_valid(own, style.settings, warnings);
+  } catch (const std::invalid_argument &e) {
+    error->all(FLERR, "pair_coeff {} {} for gran/eepa: {}", i, j, e.what());
+  }
+  warn(warnings);
+  parameters[pair_index(j, i)] = own;
+  coefficients[pair_index(i, j)] = coefficients[pair_index(j, i)] =
+      eepa::resolve(own, style.settings);
+
+  // frozen particles do not meet each other
+  return std::max({max_radius_dynamic[i] + max_radius_dynamic[j],
+                   max_radius_frozen[i] + max_radius_dynamic[j],
+                   max_radius_dynamic[i] + max_radius_frozen[j]});
+}
+
+void PairGranEepa::setup()
+{
+  if (style.time_step_check == eepa::TimeStepCheck::off) return;
+  const TimeStepBound bound = largest_time_step();
+  if (update->dt <= bound.time_step) return;
+  const auto message = fmt::format(
+      "{}: timestep {:.6g} is larger than {:.6g} = 0.2 sqrt(m_min/k_max), which {} sets", style_name,
+      update->dt, bound.time_step, bound.origin);
+  if (style.time_step_check == eepa::TimeStepCheck::error)
+    error->all(FLERR, message);
+  else if (comm->me == 0)
+    error->warning(FLERR, message);
+}
+
+TimeStepBound PairGranEepa::largest_time_step()
+{
+  // the lightest particle need not be the one with the stiffest contact: each meets the largest
+  // partner of every type
+  const int n = atom->ntypes;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  std::vector<double> mine((n + 1) * (n + 1), never), all((n + 1) * (n + 1), never);
+  const double *mass = masses.masses();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (std::isinf(mass[i])) continue;
+    const int itype = atom->type[i];
+    for (int jtype = 1; jtype <= n; jtype++) {
+      const double partner = std::max(max_radius_dynamic[jtype], max_radius_frozen[jtype]);
+      if (partner == 0.0) continue;
+      const double stiffness = eepa::largest_stiffness(coefficients[pair_index(itype, jtype)],
+                                                       atom->radius[i] + partner);
+      double &least = mine[pair_index(std::min(itype, jtype), std::max(itype, jtype))];
+      least = std::min(least, eepa::largest_time_step(mass[i], stiffness));
+    }
+  }
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
+
+  TimeStepBound bound = {never, "no contact"};
+  for (int i = 1; i <= n; i++) {
+    for (int j = i; j <= n; j++) {
+      if (all[pair_index(i, j)] >= bound.time_step) continue;
+      bound.time_step = all[pair_index(i, j)];
+      bound.origin = fmt::format("the pair of types {} {}", i, j);
+    }
+  }
+  return bound;
+}
+
+void PairGranEepa::reset_dt()
+{
+  dt = update->dt;
+}
+
+double PairGranEepa::atom2cut(int i)
+{
+  return 2.0 * atom->radius[i];
+}
+
+double PairGranEepa::radii2cut(double radius_i, double radius_j)
+{
+  return radius_i + radius_j;
+}
+
+/* ---------------------------------------------------------------------- restart and data files */
+
+void PairGranEepa::write_restart(FILE *fp)
+{
+  write_restart_settings(fp);
+  for (int i = 1; i <= atom->ntypes; i++) {
+    for (int j = i; j <= atom->ntypes; j++) {
+      fwrite(&setflag[i][j], sizeof(int), 1, fp);
+      if (setflag[i][j]) write_numbers(eepa::pack(parameters[pair_index(i, j)]), fp);
+    }
+  }
+}
+
+void PairGranEepa::read_restart(FILE *fp)
+{
+  read_restart_settings(fp);
+  allocate();
+  for (int i = 1; i <= atom->ntypes; i++) {
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (comm->me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
+      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
+      if (!setflag[i][j]) continue;
+      std::array<double, eepa::packed_parameters_size> numbers;
+      if (comm->me == 0)
+        utils::sfread(FLERR, numbers.data(), sizeof(double), numbers.size(), fp, nullptr, error);
+      MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, world);
+      parameters[pair_index(i, j)] = parameters[pair_index(j, i)] =
+          eepa::unpack_parameters(numbers);
+    }
+  }
+}
+
+void PairGranEepa::write_restart_settings(FILE *fp)
+{
+  write_numbers(eepa::pack(style), fp);
+  const double size = history_size();
+  fwrite(&size, sizeof(double), 1, fp);
+}
+
+void PairGranEepa::read_restart_settings(FILE *fp)
+{
+  std::array<double, eepa::packed_style_size + 1> numbers;
+  if (comm->me == 0)
+    utils::sfread(FLERR, numbers.data(), sizeof(double), numbers.size(), fp, nullptr, error);
+  MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, world);
+  std::array<double, eepa::packed_style_size> packed;
+  std::copy_n(numbers.begin(), packed.size(), packed.begin());
+  try {
+    style = eepa::unpack_style(packed);
+  } catch (const std::invalid_argument &e) {
+    error->all(FLERR, "{}: {}", style_name, e.what());
+  }
+  restart_history_size = static_cast<int>(numbers.back());
+}
+
+void PairGranEepa::write_data(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    fmt::print(fp, "{} {}\n", i, eepa::to_words(parameters[pair_index(i, i)]));
+}
+
+void PairGranEepa::write_data_all(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++)
+      fmt::print(fp, "{} {} {}\n", i, j, eepa::to_words(parameters[pair_index(i, j)]));
+}
+
+/* ---------------------------------------------------------------------- masses of rigid bodies */
+
+int PairGranEepa::pack_forward_comm(int n, int *atoms, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  for (int i = 0; i < n; i++) buf[i] = masses.body_mass(atoms[i]);
+  return n;
+}
+
+void PairGranEepa::unpack_forward_comm(int n, int first, double *buf)
+{
+  for (int i = 0; i < n; i++) masses.body_mass(first + i) = buf[i];
+}
+
+double PairGranEepa::memory_usage()
+{
+  return Pair::memory_usage() + masses.memory_usage() +
+      static_cast<double>(touching.capacity() * sizeof(int) +
+                          parameters.capacity() * sizeof(eepa::Parameters) +
+                          coefficients.capacity() * sizeof(eepa::Coefficients));
+}

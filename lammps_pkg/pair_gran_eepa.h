@@ -1,0 +1,143 @@
+/* -*- c++ -*- SPDX-License-Identifier: GPL-2.0-only */
+#ifdef PAIR_CLASS
+// clang-format off
+PairStyle(gran/eepa,PairGranEepa);
+// clang-format on
+#else
+
+#ifndef LMP_PAIR_GRAN_EEPA_H
+#define LMP_PAIR_GRAN_EEPA_H
+
+#include "pair.h"
+
+#include "contact_masses.h"
+#include "eepa_commands.h"
+
+#include <eepa/coefficients.h>
+#include <eepa/contact.h>
+#include <eepa/history.h>
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// What compute gran/eepa/contacts counts, summed over ranks.
+struct ContactCensus {
+  double contacts = 0.0, loading = 0.0, unloading = 0.0, adhesive = 0.0, sliding = 0.0;
+  double ends = 0.0;    ///< contacts of each particle of the group, summed
+  double max_overlap_ratio = 0.0;
+  double mean_overlap_ratio = 0.0;
+};
+
+/// A bound on the time step and what sets it.
+struct TimeStepBound {
+  double time_step;     ///< [time]; infinity where nothing can touch
+  std::string origin;   ///< "pair of types 1 and 2", "fix top"
+};
+
+/// pair_style gran/eepa: gathers what a contact needs, calls the kernel's law, stores its
+/// state with the neighbour-history fix and scatters the forces. No physics here.
+class PairGranEepa : public Pair {
+ public:
+  PairGranEepa(class LAMMPS *);
+  ~PairGranEepa() override;
+  void compute(int, int) override;
+  void settings(int, char **) override;
+  void coeff(int, char **) override;
+  void init_style() override;
+  double init_one(int, int) override;
+  void setup() override;
+  void reset_dt() override;
+  double single(int, int, int, int, double, double, double, double &) override;
+
+  void write_restart(FILE *) override;
+  void read_restart(FILE *) override;
+  void write_restart_settings(FILE *) override;
+  void read_restart_settings(FILE *) override;
+  void write_data(FILE *) override;
+  void write_data_all(FILE *) override;
+
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  double memory_usage() override;
+  // virtual up to LAMMPS 2025 and gone after it, so without `override`
+#if defined(__clang__)
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Winconsistent-missing-override"
+#endif
+  virtual double atom2cut(int);
+  virtual double radii2cut(double, double);
+#if defined(__clang__)
+#pragma clang diagnostic pop
+#endif
+
+  /// Counts the contacts with a partner in the group. Collective.
+  ContactCensus census(int groupbit);
+  /// The largest stable time step over all contacts that could form. Collective.
+  TimeStepBound largest_time_step();
+
+ protected:
+  /// The quantities of single() beyond the force, in the order of p1, p2, ...
+  enum SingleQuantity {
+    BRANCH,             ///< 1 loading, 2 unloading, 3 adhesive
+    OVERLAP,            ///< delta
+    MAX_OVERLAP,        ///< delta_max
+    PLASTIC_OVERLAP,    ///< delta_p
+    SLIP,               ///< 1 at the friction bound
+    TANGENTIAL_X,       ///< tangential force on i
+    TANGENTIAL_Y,
+    TANGENTIAL_Z,
+    TANGENTIAL,            ///< its magnitude
+    HYSTERETIC,            ///< f_hys
+    FRICTION_BOUND,        ///< what TANGENTIAL can not exceed
+    ENERGY_NORMAL,         ///< recoverable energies
+    ENERGY_TANGENTIAL,
+    ENERGY_ROLLING,
+    ROLLING_TORQUE_X,    ///< rolling torque on i
+    ROLLING_TORQUE_Y,
+    ROLLING_TORQUE_Z,
+    N_SINGLE
+  };
+
+  eepa::StyleArguments style;
+  std::vector<eepa::Parameters> parameters;        // as given or mixed, (ntypes+1)^2
+  std::vector<eepa::Coefficients> coefficients;    // resolved, (ntypes+1)^2
+  eepa::RollingModel rolling = eepa::RollingModel::none;    // of all types together
+  ContactMasses masses;
+  double dt = 0.0;
+
+  class FixNeighHistory *fix_history = nullptr;
+  std::vector<double> max_radius_dynamic, max_radius_frozen;    // by type
+  std::vector<int> touching;    // neighbours of one particle that it touches
+  bool plateau_warned = false;
+  int restart_history_size = 0;    // of the restart file, 0 without
+
+  // chosen once a run from the laws of the kernel
+  typedef void (PairGranEepa::*Loop)();
+  Loop loop = nullptr, loop_with_tally = nullptr;
+  typedef double (PairGranEepa::*Single)(const eepa::Coefficients &, const eepa::Contact &,
+                                         eepa::History &, double &);
+  Single single_law = nullptr;
+
+  int pair_index(int itype, int jtype) const { return itype * (ntypes_allocated + 1) + jtype; }
+  int ntypes_allocated = 0;
+  void allocate();
+  void choose_law();
+  void init_history();
+  void init_radii();
+  std::string history_id() const;
+  int history_size() const;
+  void warn(const eepa::Words &);
+  int find_history(int i, int j, const double *&values, double &sign) const;
+
+  template <class ContactLaw, bool Tally> void contact_loop();
+  template <class ContactLaw>
+  double single_contact(const eepa::Coefficients &, const eepa::Contact &, eepa::History &,
+                        double &);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef LMP_EEPA_WALL_SURFACE_H
+#define LMP_EEPA_WALL_SURFACE_H
+
+#include <eepa/vector.h>
+
+#include <array>
+#include <cmath>
+
+namespace LAMMPS_NS {
+
+/// Where a surface is nearest to a particle.
+struct SurfacePoint {
+  double overlap;           ///< R_i - distance; > 0 in contact [length]
+  eepa::Vec3 normal;        ///< unit vector from the surface to the particle
+  eepa::Vec3 velocity;      ///< of the surface at that point [length/time]
+};
+
+/// The surfaces of one wall: two planes normal to an axis, or the lateral surface of a cylinder
+/// along z. Geometry and motion only; a kind of wall that is new belongs here.
+class WallSurfaces {
+ public:
+  enum Kind { xplane = 0, yplane = 1, zplane = 2, zcylinder = 3 };
+
+  Kind kind = zplane;
+  bool has_lo = false, has_hi = false;
+  double lo = 0.0, hi = 0.0;    ///< planes: coordinates when the wall was made
+  double radius = 0.0;          ///< cylinder
+
+  std::array<double, 3> displacement = {0.0, 0.0, 0.0};    ///< since the wall was made
+  std::array<double, 3> velocity = {0.0, 0.0, 0.0};
+  double surface_speed = 0.0;    ///< cylinder: of its surface, turning about its axis
+
+  bool is_plane() const { return kind != zcylinder; }
+  int axis() const { return static_cast<int>(kind); }
+  int count() const { return is_plane() ? (has_lo ? 1 : 0) + (has_hi ? 1 : 0) : 1; }
+
+  /// Position along the normal of the first surface; the radius of a cylinder.
+  double position() const
+  {
+    return is_plane() ? (has_lo ? lo : hi) + displacement[axis()] : radius;
+  }
+  double normal_velocity() const { return is_plane() ? velocity[axis()] : 0.0; }
+
+  /// \param surface  0 .. count() - 1
+  /// \param x  centre of a particle of radius `particle_radius`
+  SurfacePoint nearest(int surface, const double *x, double particle_radius) const
+  {
+    SurfacePoint point;
+    point.velocity = eepa::Vec3(velocity.data());
+    if (is_plane()) {
+      const int dim = axis();
+      const bool lower = has_lo && surface == 0;
+      const double distance = lower ? x[dim] - (lo + displacement[dim])
+                                    : (hi + displacement[dim]) - x[dim];
+      point.overlap = particle_radius - distance;
+      point.normal.setZero();
+      point.normal[dim] = lower ? 1.0 : -1.0;
+      return point;
+    }
+    const double dx = x[0] - displacement[0];
+    const double dy = x[1] - displacement[1];
+    const double from_axis = std::sqrt(dx * dx + dy * dy);
+    const double inside = from_axis < radius ? 1.0 : -1.0;
+    point.overlap = particle_radius - inside * (radius - from_axis);
+    eepa::Vec3 radial(1.0, 0.0, 0.0);    // any direction serves a particle on the axis
+    if (from_axis > 0.0) radial = eepa::Vec3(dx / from_axis, dy / from_axis, 0.0);
+    point.normal = -inside * radial;
+    point.velocity += surface_speed * eepa::Vec3(radial[1], -radial[0], 0.0);
+    return point;
+  }
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
