@@ -69,8 +69,15 @@ PairGranEepa::PairGranEepa(LAMMPS *lmp) : Pair(lmp), masses(lmp)
   single_extra = N_SINGLE;
   svector = new double[N_SINGLE];
 
+  // The ID under which a restart file finds the history again. LAMMPS's styles count the pair
+  // styles that a process ever had; a pair_style before this one, in the writing run or in the
+  // reading one, would then lose the history without a word. The first free ID does not.
+  int n = 0;
+  do {
+    history_id = "NEIGH_HISTORY_EEPA" + std::to_string(n++);
+  } while (modify->get_fix_by_id(history_id) || modify->get_fix_by_id(history_id + "_DUMMY"));
   // takes the place that the history fix will have among the fixes
-  modify->add_fix(history_id() + "_DUMMY all DUMMY");
+  modify->add_fix(history_id + "_DUMMY all DUMMY");
 }
 
 PairGranEepa::~PairGranEepa()
@@ -78,16 +85,11 @@ PairGranEepa::~PairGranEepa()
   if (copymode) return;
   delete[] svector;
   svector = nullptr;
-  modify->delete_fix(fix_history ? history_id() : history_id() + "_DUMMY");
+  modify->delete_fix(fix_history ? history_id : history_id + "_DUMMY");
   if (allocated) {
     memory->destroy(setflag);
     memory->destroy(cutsq);
   }
-}
-
-std::string PairGranEepa::history_id() const
-{
-  return "NEIGH_HISTORY_EEPA" + std::to_string(instance_me);
 }
 
 int PairGranEepa::history_size() const
@@ -205,7 +207,7 @@ void PairGranEepa::init_history()
                style_name, restart_history_size, size);
   if (!fix_history) {
     fix_history = dynamic_cast<FixNeighHistory *>(modify->replace_fix(
-        history_id() + "_DUMMY", fmt::format("{} all NEIGH_HISTORY {}", history_id(), size), 1));
+        history_id + "_DUMMY", fmt::format("{} all NEIGH_HISTORY {}", history_id, size), 1));
     fix_history->pair = this;
   } else if (fix_history->get_dnum() != size) {
     error->all(FLERR, "{}: rolling sds can not be switched on or off after a run", style_name);

@@ -108,6 +108,7 @@ class PairGranEepa : public Pair {
   double dt = 0.0;
 
   class FixNeighHistory *fix_history = nullptr;
+  std::string history_id;    // of fix_history, or with _DUMMY of its place holder
   std::vector<double> max_radius_dynamic, max_radius_frozen;    // by type
   std::vector<int> touching;    // neighbours of one particle that it touches
   bool plateau_warned = false;
@@ -126,7 +127,6 @@ class PairGranEepa : public Pair {
   void choose_law();
   void init_history();
   void init_radii();
-  std::string history_id() const;
   int history_size() const;
   void warn(const eepa::Words &);
   int find_history(int i, int j, const double *&values, double &sign) const;

@@ -1,0 +1,261 @@
+# LAMMPS itself: its source, and a stock shared library built from it.
+#
+#   LAMMPS_SOURCE_DIR      a LAMMPS source tree (the folder with cmake/ and src/); used as it is
+#   EEPA_LAMMPS_RELEASE    otherwise: the release to obtain, 4Feb2025 (default) or 4Jul2026
+#   EEPA_CACHE_DIR         where source and library are kept: $EEPA_CACHE,
+#                          else $XDG_CACHE_HOME/eepa, else $HOME/.cache/eepa
+#   EEPA_LAMMPS_ARGS       more -D arguments for LAMMPS's own configuration (a list)
+#
+# Defines
+#   LAMMPS::headers        include folders (as system ones: -Werror is for this project's code) and
+#                          the very definitions that LAMMPS was compiled with; MPI and OpenMP
+#   LAMMPS::lammps         the same and the shared library
+#   EEPA_LAMMPS_EXECUTABLE the stock lmp of the same build
+#   EEPA_LAMMPS_DATE       its version as a number, such as 20250204; also a definition of LAMMPS::headers
+#
+# LAMMPS is built while configuring, not as a step of the build: its compile definitions,
+# which the package must share, are known only after LAMMPS has been configured, and a cached
+# library must cost later builds nothing. Source and library lie outside the build folder,
+# so that deleting that folder costs seconds and not minutes.
+
+include_guard(GLOBAL)
+include(ProcessorCount)
+
+if(DEFINED ENV{EEPA_CACHE} AND NOT "$ENV{EEPA_CACHE}" STREQUAL "")
+  set(_eepa_cache "$ENV{EEPA_CACHE}")
+elseif(DEFINED ENV{XDG_CACHE_HOME} AND NOT "$ENV{XDG_CACHE_HOME}" STREQUAL "")
+  set(_eepa_cache "$ENV{XDG_CACHE_HOME}/eepa")
+elseif(DEFINED ENV{HOME} AND NOT "$ENV{HOME}" STREQUAL "")
+  set(_eepa_cache "$ENV{HOME}/.cache/eepa")
+else()
+  set(_eepa_cache "${CMAKE_BINARY_DIR}/cache")
+endif()
+set(LAMMPS_SOURCE_DIR "" CACHE PATH "LAMMPS source tree to use; empty: obtain one")
+set(EEPA_CACHE_DIR "${_eepa_cache}" CACHE PATH "Keeps the LAMMPS source and library")
+set(EEPA_LAMMPS_RELEASE "4Feb2025" CACHE STRING "LAMMPS release to obtain")
+set_property(CACHE EEPA_LAMMPS_RELEASE PROPERTY STRINGS 4Feb2025 4Jul2026)
+set(EEPA_LAMMPS_ARGS "" CACHE STRING "More -D arguments for LAMMPS's configuration")
+
+# Debian's suite and version of its source package, and the tag in LAMMPS's own repository.
+set(_eepa_debian_4Feb2025 trixie 20250204+dfsg.1-2)
+set(_eepa_debian_4Jul2026 forky 20260704+dfsg-2)
+
+set(_eepa_own_source_hint
+  "Alternative: unpack any LAMMPS of 4 Feb 2025 to 4 Jul 2026 yourself and give its folder "
+  "with -D LAMMPS_SOURCE_DIR=...")
+string(CONCAT _eepa_own_source_hint ${_eepa_own_source_hint})
+
+# Puts the source of EEPA_LAMMPS_RELEASE at `tree`, complete or not at all.
+function(_eepa_fetch_source tree)
+  list(GET _eepa_debian_${EEPA_LAMMPS_RELEASE} 0 suite)
+  list(GET _eepa_debian_${EEPA_LAMMPS_RELEASE} 1 version)
+  # What a killed fetch could not clean up. Nobody else is fetching: the caller holds the lock.
+  get_filename_component(parent "${tree}" DIRECTORY)
+  file(GLOB stale "${parent}/.fetch.*")
+  if(stale)
+    file(REMOVE_RECURSE ${stale})
+  endif()
+
+  set(failures "")
+  find_program(EEPA_APT_GET apt-get)
+  mark_as_advanced(EEPA_APT_GET)
+  if(EEPA_APT_GET)
+    message(STATUS "LAMMPS ${EEPA_LAMMPS_RELEASE}: fetching Debian's source package lammps ${version} "
+      "(about 130 MB, once)")
+    execute_process(
+      COMMAND sh "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/fetch_lammps_debian.sh" "${tree}" ${suite} ${version}
+      RESULT_VARIABLE status)
+    if(status EQUAL 0)
+      return()
+    elseif(status EQUAL 2)
+      string(APPEND failures "  - this machine's apt has no Debian archive configured\n")
+    elseif(status EQUAL 3)
+      string(APPEND failures
+        "  - Debian's suite ${suite} has moved on and no longer has lammps ${version}\n")
+    else()
+      string(APPEND failures
+        "  - apt could not fetch lammps ${version} from Debian's suite ${suite}; its words are above\n")
+    endif()
+  endif()
+
+  # Written for systems without Debian's archive; it could not be tried where this was developed
+  # (no such network there), and nothing but HTTPS vouches for what it downloads.
+  set(url "https://github.com/lammps/lammps/archive/refs/tags/patch_${EEPA_LAMMPS_RELEASE}.tar.gz")
+  set(work "${parent}/.fetch.github")
+  message(STATUS "LAMMPS ${EEPA_LAMMPS_RELEASE}: downloading ${url}")
+  file(DOWNLOAD "${url}" "${work}/lammps.tar.gz"
+    STATUS status INACTIVITY_TIMEOUT 60 TLS_VERIFY ON SHOW_PROGRESS)
+  list(GET status 0 code)
+  list(GET status 1 words)
+  if(code EQUAL 0)
+    file(ARCHIVE_EXTRACT INPUT "${work}/lammps.tar.gz" DESTINATION "${work}/unpacked")
+    file(GLOB found "${work}/unpacked/*/cmake/CMakeLists.txt")
+    if(found)
+      list(GET found 0 found)
+      get_filename_component(found "${found}" DIRECTORY)
+      get_filename_component(found "${found}" DIRECTORY)
+      file(RENAME "${found}" "${tree}")
+      file(REMOVE_RECURSE "${work}")
+      return()
+    endif()
+    set(words "the archive holds no LAMMPS source tree")
+  endif()
+  file(REMOVE_RECURSE "${work}")
+  string(APPEND failures "  - ${url}: ${words}\n")
+  message(FATAL_ERROR "LAMMPS ${EEPA_LAMMPS_RELEASE} could not be obtained:\n${failures}"
+    "${_eepa_own_source_hint}")
+endfunction()
+
+# Configures and builds LAMMPS's library in `build`.
+function(_eepa_build_lammps source build)
+  file(MAKE_DIRECTORY "${build}")
+  set(png OFF)
+  if(PNG_FOUND)
+    set(png ON)
+  endif()
+  set(graphics "")
+  if(IS_DIRECTORY "${source}/src/GRAPHICS")
+    # `dump image` moved into a package of its own after 4 Feb 2025.
+    set(graphics -D PKG_GRAPHICS=on)
+  endif()
+  set(launcher "")
+  if(CMAKE_CXX_COMPILER_LAUNCHER)
+    set(launcher -D "CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}")
+  endif()
+  # A make or ninja around this configure would hand its job server and its settings down.
+  set(clean_env ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS --unset=MAKELEVEL --unset=NINJA_STATUS)
+  execute_process(
+    COMMAND ${clean_env} ${CMAKE_COMMAND} -S "${source}/cmake" -B "${build}" -G "${CMAKE_GENERATOR}"
+      -D "CMAKE_MAKE_PROGRAM=${CMAKE_MAKE_PROGRAM}"
+      -D "CMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" ${launcher}
+      -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_STANDARD=17 -D CMAKE_EXPORT_COMPILE_COMMANDS=on
+      -D BUILD_SHARED_LIBS=on -D BUILD_MPI=on -D BUILD_OMP=on
+      -D PKG_GRANULAR=on -D PKG_PLUGIN=on -D PKG_OPENMP=on -D PKG_RIGID=on ${graphics}
+      -D WITH_PNG=${png} -D WITH_JPEG=off -D WITH_GZIP=off -D WITH_FFMPEG=off -D WITH_CURL=off
+      ${EEPA_LAMMPS_ARGS}
+    OUTPUT_FILE "${build}/eepa_configure.log" ERROR_FILE "${build}/eepa_configure.log"
+    RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    file(READ "${build}/eepa_configure.log" words)
+    message(FATAL_ERROR "LAMMPS in ${source} could not be configured "
+      "(this is ${build}/eepa_configure.log):\n${words}")
+  endif()
+
+  set(jobs "$ENV{CMAKE_BUILD_PARALLEL_LEVEL}")
+  if(NOT jobs MATCHES "^[1-9][0-9]*$")
+    ProcessorCount(jobs)
+    if(jobs LESS 1)
+      set(jobs 1)
+    endif()
+  endif()
+  execute_process(
+    COMMAND ${clean_env} ${CMAKE_COMMAND} --build "${build}" --parallel ${jobs}
+    COMMAND sh "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/build_progress.sh" "${build}/eepa_build.log"
+    RESULTS_VARIABLE statuses)
+  foreach(status IN LISTS statuses)
+    if(NOT status EQUAL 0)
+      execute_process(COMMAND tail -n 40 "${build}/eepa_build.log" OUTPUT_VARIABLE words)
+      message(FATAL_ERROR "LAMMPS could not be built; the end of ${build}/eepa_build.log:\n${words}")
+    endif()
+  endforeach()
+endfunction()
+
+# A function, so that the lock is given up wherever it is left.
+function(_eepa_obtain_lammps)
+  if(EEPA_LAMMPS_RELEASE AND NOT DEFINED _eepa_debian_${EEPA_LAMMPS_RELEASE})
+    message(FATAL_ERROR
+      "EEPA_LAMMPS_RELEASE=${EEPA_LAMMPS_RELEASE}: known are 4Feb2025 and 4Jul2026. ${_eepa_own_source_hint}")
+  endif()
+  get_filename_component(cache "${EEPA_CACHE_DIR}" ABSOLUTE BASE_DIR "${CMAKE_BINARY_DIR}")
+
+  file(MAKE_DIRECTORY "${cache}")
+  file(LOCK "${cache}/lock" GUARD FUNCTION TIMEOUT 0 RESULT_VARIABLE locked)
+  if(NOT locked EQUAL 0)
+    message(STATUS "another configuration is using ${cache}; waiting for it (up to an hour)")
+    file(LOCK "${cache}/lock" GUARD FUNCTION TIMEOUT 3600 RESULT_VARIABLE locked)
+    if(NOT locked EQUAL 0)
+      message(FATAL_ERROR "${cache}/lock: ${locked}")
+    endif()
+  endif()
+
+  if(LAMMPS_SOURCE_DIR)
+    get_filename_component(source "${LAMMPS_SOURCE_DIR}" REALPATH BASE_DIR "${CMAKE_SOURCE_DIR}")
+    if(NOT EXISTS "${source}/cmake/CMakeLists.txt" OR NOT EXISTS "${source}/src/version.h")
+      message(FATAL_ERROR "LAMMPS_SOURCE_DIR=${LAMMPS_SOURCE_DIR} is no LAMMPS source tree: "
+        "it has no cmake/CMakeLists.txt or no src/version.h")
+    endif()
+    set(name user)
+  else()
+    set(source "${cache}/source/lammps-${EEPA_LAMMPS_RELEASE}")
+    if(NOT EXISTS "${source}/src/version.h")
+      _eepa_fetch_source("${source}")
+    endif()
+    set(name ${EEPA_LAMMPS_RELEASE})
+  endif()
+
+  file(STRINGS "${source}/src/version.h" version REGEX "LAMMPS_VERSION")
+  if(NOT version MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9][0-9][0-9][0-9])\"")
+    message(FATAL_ERROR "${source}/src/version.h names no version of the form \"4 Feb 2025\": ${version}")
+  endif()
+  set(day ${CMAKE_MATCH_1})
+  set(year ${CMAKE_MATCH_3})
+  set(version "${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${CMAKE_MATCH_3}")
+  list(FIND _eepa_months ${CMAKE_MATCH_2} month)
+  math(EXPR date "${year} * 10000 + (${month} + 1) * 100 + ${day}")
+  if(date LESS 20250204)
+    message(FATAL_ERROR "LAMMPS ${version} in ${source} is too old: 4 Feb 2025 is the oldest that will do")
+  endif()
+
+  # Whatever could make a library differ, so that two configurations never share one by mistake.
+  string(SHA256 key "${source}|${version}|${CMAKE_CXX_COMPILER}|${CMAKE_CXX_COMPILER_ID}|\
+${CMAKE_CXX_COMPILER_VERSION}|${CMAKE_GENERATOR}|${MPI_CXX_LIBRARIES}|${PNG_LIBRARIES}|\
+${EEPA_LAMMPS_ARGS}|$ENV{CXXFLAGS}|$ENV{LDFLAGS}|recipe 1")
+  string(SUBSTRING ${key} 0 12 key)
+  set(build "${cache}/build/lammps-${name}-${key}")
+  set(library "${build}/liblammps${CMAKE_SHARED_LIBRARY_SUFFIX}")
+  set(stamp "${build}/eepa_complete")
+
+  # A tree of the user's may be under development: let its own build system say what is out of date.
+  if(LAMMPS_SOURCE_DIR OR NOT EXISTS "${stamp}")
+    if(NOT EXISTS "${stamp}")
+      message(STATUS "LAMMPS ${version}: building its shared library, once "
+        "(3 to 4 minutes on two cores), in ${build}")
+    endif()
+    _eepa_build_lammps("${source}" "${build}")
+    file(WRITE "${stamp}" "LAMMPS ${version} from ${source}\n")
+  endif()
+  message(STATUS "LAMMPS ${version}: ${library}")
+
+  # From the command that compiled LAMMPS's main class, because it tells what LAMMPS really used
+  # and the exported target does not: LAMMPS keeps most of its definitions private.
+  file(STRINGS "${build}/compile_commands.json" command REGEX "\"command\": .*/src/lammps\\.cpp\"")
+  if(NOT command)
+    message(FATAL_ERROR "${build}/compile_commands.json says nothing about lammps.cpp; "
+      "delete ${build} to build it again")
+  endif()
+  string(REGEX MATCHALL " -D[^ ]+" definitions "${command}")
+  string(REPLACE " -D" "" definitions "${definitions}")
+  list(REMOVE_ITEM definitions lammps_EXPORTS)
+  string(REGEX MATCHALL " (-I|-isystem )[^ ]+" includes "${command}")
+  list(TRANSFORM includes REPLACE "^ (-I|-isystem )" "")
+
+  add_library(LAMMPS::headers INTERFACE IMPORTED GLOBAL)
+  target_include_directories(LAMMPS::headers SYSTEM INTERFACE ${includes})
+  target_compile_definitions(LAMMPS::headers INTERFACE ${definitions} EEPA_LAMMPS_DATE=${date})
+  target_link_libraries(LAMMPS::headers INTERFACE MPI::MPI_CXX OpenMP::OpenMP_CXX)
+  add_library(LAMMPS::lammps SHARED IMPORTED GLOBAL)
+  set_target_properties(LAMMPS::lammps PROPERTIES IMPORTED_LOCATION "${library}")
+  target_link_libraries(LAMMPS::lammps INTERFACE LAMMPS::headers)
+
+  set(EEPA_LAMMPS_DATE ${date} PARENT_SCOPE)
+  set(EEPA_LAMMPS_EXECUTABLE "${build}/lmp" PARENT_SCOPE)
+endfunction()
+
+set(_eepa_months Jan Feb Mar Apr May Jun Jul Aug Sep Oct Nov Dec)
+
+# Without Open MPI's old C++ interface: its symbols would have to be in whatever loads the plugin.
+set(MPI_CXX_SKIP_MPICXX TRUE)
+find_package(MPI REQUIRED COMPONENTS CXX)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(PNG QUIET)
+_eepa_obtain_lammps()

@@ -1,0 +1,17 @@
+#!/bin/sh
+# Prints the first Python 3 that has NumPy and Matplotlib: $PYTHON alone where it is set, else
+# the system's own before the one on PATH, since apt installs the two libraries for the former.
+if [ -n "${PYTHON:-}" ]; then
+    set -- "$PYTHON"
+else
+    set -- /usr/bin/python3 python3
+fi
+for python; do
+    path=$(command -v "$python") || continue
+    if "$path" -c 'import numpy, matplotlib' 2>/dev/null; then
+        printf '%s\n' "$path"
+        exit 0
+    fi
+done
+echo "no Python 3 with NumPy and Matplotlib among: $*" >&2
+exit 1

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# From a bare machine to a built project: installs what is missing (Debian, Ubuntu),
+# obtains and builds LAMMPS once, configures and builds. Safe to run again.
+#
+#   scripts/setup.sh [more arguments for cmake, such as -D EEPA_NATIVE=ON]
+#
+# BUILD_DIR names another build folder; EEPA_CACHE another place for LAMMPS.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=${BUILD_DIR:-$root/build}
+
+packages=(cmake ninja-build g++ libopenmpi-dev openmpi-bin libeigen3-dev libgtest-dev
+    libbenchmark-dev libpng-dev python3 python3-numpy python3-matplotlib dpkg-dev xz-utils
+    ca-certificates)
+
+installed() {
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+missing=()
+if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then
+    for package in "${packages[@]}"; do
+        installed "$package" || missing+=("$package")
+    done
+    if [ ${#missing[@]} -gt 0 ]; then
+        echo "Installing ${missing[*]}"
+        as_root=()
+        if [ "$(id -u)" -ne 0 ]; then
+            if ! command -v sudo >/dev/null; then
+                echo "Neither root nor sudo: have an administrator run" >&2
+                echo "  apt-get install ${missing[*]}" >&2
+                exit 1
+            fi
+            as_root=(sudo)
+        fi
+        "${as_root[@]}" apt-get update -q
+        "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+            apt-get install -q -y --no-install-recommends "${missing[@]}"
+    fi
+else
+    for tool in cmake ninja c++ mpicxx mpirun tar; do
+        command -v "$tool" >/dev/null || missing+=("$tool")
+    done
+    sh "$root/scripts/find_python.sh" >/dev/null 2>&1 || missing+=("python3 with NumPy and Matplotlib")
+    if [ ${#missing[@]} -gt 0 ]; then
+        printf 'Missing: %s\n' "${missing[@]}" >&2
+        cat >&2 <<'NEEDED'
+This is no Debian or Ubuntu, so nothing is installed here. Needed are: CMake 3.20 or newer, Ninja,
+a C++17 compiler (GCC or Clang) with OpenMP, an MPI with its compiler wrappers, Eigen 3.3 or newer,
+GoogleTest, Google Benchmark, and Python 3 with NumPy and Matplotlib.
+NEEDED
+        exit 1
+    fi
+fi
+
+# The generator of an existing build folder can not be changed.
+generator=(-G Ninja)
+[ ! -f "$build/CMakeCache.txt" ] || generator=()
+cmake -S "$root" -B "$build" "${generator[@]}" "$@"
+cmake --build "$build"
