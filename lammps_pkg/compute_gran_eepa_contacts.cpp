@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #include "compute_gran_eepa_contacts.h"
 
-#include "find_pairs.h"
+#include "find_contact_owners.h"
 
 #include "error.h"
 #include "group.h"

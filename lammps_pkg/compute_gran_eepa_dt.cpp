@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #include "compute_gran_eepa_dt.h"
 
-#include "find_pairs.h"
-#include "fix_wall_gran_eepa.h"
+#include "find_contact_owners.h"
 
 #include "error.h"
-#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
 #include <limits>
 
 using namespace LAMMPS_NS;
-
-namespace {
-std::vector<FixWallGranEepa *> find_eepa_walls(Modify *modify)
-{
-  std::vector<FixWallGranEepa *> walls;
-  for (auto *fix : modify->get_fix_list())
-    if (auto *wall = dynamic_cast<FixWallGranEepa *>(fix)) walls.push_back(wall);
-  return walls;
-}
-}    // namespace
 
 ComputeGranEepaDt::ComputeGranEepaDt(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
 {

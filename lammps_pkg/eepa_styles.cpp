@@ -3,6 +3,7 @@
 
 #include "compute_gran_eepa_contacts.h"
 #include "compute_gran_eepa_dt.h"
+#include "compute_gran_eepa_energy.h"
 #include "fix_wall_gran_eepa.h"
 #include "pair_gran_eepa.h"
 
@@ -34,6 +35,8 @@ const std::vector<EepaStyle> &LAMMPS_NS::eepa_styles()
        maker<Fix, FixWallGranEepa>, nullptr},
       {"compute", "gran/eepa/contacts", "contacts by branch, coordination number", nullptr, nullptr,
        maker<Compute, ComputeGranEepaContacts>},
+      {"compute", "gran/eepa/energy", "stored and dissipated energies", nullptr, nullptr,
+       maker<Compute, ComputeGranEepaEnergy>},
       {"compute", "gran/eepa/dt", "largest stable time step", nullptr, nullptr,
        maker<Compute, ComputeGranEepaDt>},
   };

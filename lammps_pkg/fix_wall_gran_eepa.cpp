@@ -13,6 +13,7 @@
 #include "error.h"
 #include "input.h"
 #include "memory.h"
+#include "modify.h"
 #include "update.h"
 #include "variable.h"
 
@@ -220,6 +221,7 @@ void FixWallGranEepa::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "fix {} wall/gran/eepa can not be used with run_style respa", id);
   masses.init("fix wall/gran/eepa");
+  keep_ledger = EnergyLedger::wanted(modify);
   for (const auto &name : velocity_variable) {
     if (name.empty()) continue;
     const int index = input->variable->find(name.c_str());

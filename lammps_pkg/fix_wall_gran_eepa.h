@@ -12,6 +12,7 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 
 #include "contact_masses.h"
 #include "eepa_commands.h"
+#include "energy_ledger.h"
 #include "pair_gran_eepa.h"    // TimeStepBound
 #include "wall_surface.h"
 
@@ -51,6 +52,8 @@ class FixWallGranEepa : public Fix {
 
   /// The largest stable time step of the contacts with this wall. Collective.
   TimeStepBound largest_time_step();
+  /// This rank's energies; all zero unless a compute gran/eepa/energy existed at the last init.
+  const EnergyLedger &energy_ledger() const { return ledger; }
 
  private:
   /// the global vector
@@ -114,6 +117,10 @@ class FixWallGranEepa : public Fix {
   std::array<double, N_VECTOR> felt_vector;
   bigint felt_reduced = -1;
 
+  EnergyLedger ledger;
+  bool keep_ledger = false;
+  double power = 0.0;    // of the surfaces on this rank's particles, at the last force call
+
   typedef void (FixWallGranEepa::*Loop)();
   Loop loop = nullptr;
 
@@ -124,6 +131,7 @@ class FixWallGranEepa : public Fix {
   void require(int narg, int iarg, int count, const char *what);
   void evaluate_velocity();
   void move_surfaces();
+  void stop_at_overlap(int i, double overlap) const;
   template <class ContactLaw> void contact_loop();
 };
 

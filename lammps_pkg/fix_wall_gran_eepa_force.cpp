@@ -100,7 +100,11 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   move_surfaces();
   felt = {};
   felt_reduced = -1;
+  ledger.elastic = eepa::StoredEnergy();
+  const double power_before = power;
+  power = 0.0;
   (this->*loop)();
+  if (keep_ledger && update->setupflag == 0) ledger.wall_work += 0.5 * (power_before + power) * dt;
 }
 
 template <class ContactLaw> void FixWallGranEepa::contact_loop()
@@ -125,11 +129,8 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
     for (int surface = 0; surface < n_surfaces; surface++) {
       double *values = history[i] + static_cast<std::ptrdiff_t>(surface) * ContactLaw::history_size;
       const SurfacePoint point = surfaces.nearest(surface, x[i], radius[i]);
-      if (point.overlap <= 0.0) {
-        if (values[eepa::MAX_OVERLAP] != 0.0)
-          eepa::store_history<rolling_spring>(eepa::History(), values);
-        continue;
-      }
+      const bool known = values[eepa::MAX_OVERLAP] != 0.0;
+      if (point.overlap <= 0.0 && !known) continue;
 
       contact.normal = point.normal;
       contact.overlap = point.overlap;
@@ -143,11 +144,30 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
       contact.angular_velocity = Vec3(omega[i]);
 
       eepa::History state = eepa::load_history<rolling_spring>(values);
+      if (point.overlap <= 0.0) {
+        if (keep_ledger && store)
+          ledger.dissipated.add(
+              eepa::dissipation_of_opening<ContactLaw>(coefficients, contact, dt, state), 1.0);
+        eepa::store_history<rolling_spring>(eepa::History(), values);
+        continue;
+      }
+      if (point.overlap > radius[i]) stop_at_overlap(i, point.overlap);
+      const eepa::History before = state;
       const eepa::Response response = ContactLaw::evaluate(
           coefficients, style.settings.limit_damping, contact, time_step, state);
       if (store) eepa::store_history<rolling_spring>(state, values);
 
       const Vec3 force = ContactLaw::force_on_i(response, contact);
+      if (keep_ledger) {
+        power += force.dot(point.velocity);
+        ledger.store(
+            ContactLaw::stored_energy(coefficients, contact.size, contact.overlap, state), 1.0);
+        if (store)
+          ledger.dissipated.add(
+              eepa::dissipation_of_step<ContactLaw>(coefficients, contact, response, time_step,
+                                                    !known, before, state),
+              1.0);
+      }
       Vec3 turn = -arm * ContactLaw::tangential_moment(response, contact);
       if constexpr (ContactLaw::has_rolling) turn += response.rolling_torque;
       for (int k = 0; k < 3; k++) {
@@ -172,6 +192,14 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
       }
     }
   }
+}
+
+void FixWallGranEepa::stop_at_overlap(int i, double overlap) const
+{
+  error->one(FLERR,
+             "fix {} wall/gran/eepa: atom {} overlaps the wall by {:.6g} at step {}, more than its "
+             "radius {:.6g}: the time step is too large, the stiffness too small or the wall too fast",
+             id, atom->tag[i], overlap, update->ntimestep, atom->radius[i]);
 }
 
 double FixWallGranEepa::compute_vector(int n)

@@ -177,6 +177,9 @@ void PairGranEepa::init_style()
   dt = update->dt;
   masses.init(style_name);
   init_radii();
+  keep_ledger = EnergyLedger::wanted(modify);
+  // an opening that falls on a rebuild must be booked, so such a contact outlives its end
+  beyond_contact = keep_ledger ? 1 : 0;
 
   // one rolling law serves all pairs of types: those without take part with mu_r = 0
   rolling = eepa::RollingModel::none;

@@ -12,6 +12,7 @@ PairStyle(gran/eepa,PairGranEepa);
 
 #include "contact_masses.h"
 #include "eepa_commands.h"
+#include "energy_ledger.h"
 
 #include <eepa/coefficients.h>
 #include <eepa/contact.h>
@@ -76,6 +77,8 @@ class PairGranEepa : public Pair {
   ContactCensus census(int groupbit);
   /// The largest stable time step over all contacts that could form. Collective.
   TimeStepBound largest_time_step();
+  /// This rank's energies; all zero unless a compute gran/eepa/energy existed at the last init.
+  const EnergyLedger &energy_ledger() const { return ledger; }
 
  protected:
   /// The quantities of single() beyond the force, in the order of p1, p2, ...
@@ -114,9 +117,13 @@ class PairGranEepa : public Pair {
   bool plateau_warned = false;
   int restart_history_size = 0;    // of the restart file, 0 without
 
-  // chosen once a run from the laws of the kernel
+  EnergyLedger ledger;
+  bool keep_ledger = false;
+
+  // chosen once a run from the laws of the kernel; the accounting one also tallies energy and
+  // virial and keeps the ledger, when asked
   typedef void (PairGranEepa::*Loop)();
-  Loop loop = nullptr, loop_with_tally = nullptr;
+  Loop loop = nullptr, accounting_loop = nullptr;
   typedef double (PairGranEepa::*Single)(const eepa::Coefficients &, const eepa::Contact &,
                                          eepa::History &, double &);
   Single single_law = nullptr;
@@ -131,7 +138,11 @@ class PairGranEepa : public Pair {
   void warn(const eepa::Words &);
   int find_history(int i, int j, const double *&values, double &sign) const;
 
-  template <class ContactLaw, bool Tally> void contact_loop();
+  template <class ContactLaw, bool Accounting> void contact_loop();
+  template <class ContactLaw>
+  void book_opening(const struct ParticleArrays &, int i, int j, const double *values);
+  double share_of_pair(int j) const;
+  [[noreturn]] void stop_at_overlap(int i, int j, double overlap) const;
   template <class ContactLaw>
   double single_contact(const eepa::Coefficients &, const eepa::Contact &, eepa::History &,
                         double &);

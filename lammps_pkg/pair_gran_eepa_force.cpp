@@ -18,7 +18,9 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 using namespace LAMMPS_NS;
 using eepa::Vec3;
@@ -40,7 +42,7 @@ void PairGranEepa::choose_law()
   eepa::with_law(style.settings, rolling, [this](auto law) {
     using ContactLaw = decltype(law);
     loop = &PairGranEepa::contact_loop<ContactLaw, false>;
-    loop_with_tally = &PairGranEepa::contact_loop<ContactLaw, true>;
+    accounting_loop = &PairGranEepa::contact_loop<ContactLaw, true>;
     single_law = &PairGranEepa::single_contact<ContactLaw>;
   });
 }
@@ -52,11 +54,12 @@ void PairGranEepa::compute(int eflag, int vflag)
     masses.collect_bodies();
     comm->forward_comm(this);
   }
-  (this->*(evflag ? loop_with_tally : loop))();
+  (this->*((evflag || keep_ledger) ? accounting_loop : loop))();
 }
 
-template <class ContactLaw, bool Tally> void PairGranEepa::contact_loop()
+template <class ContactLaw, bool Accounting> void PairGranEepa::contact_loop()
 {
+  ledger.elastic = eepa::StoredEnergy();
   const int inum = list->inum;
   if (inum == 0) return;
   const int *ilist = list->ilist;
@@ -101,8 +104,12 @@ template <class ContactLaw, bool Tally> void PairGranEepa::contact_loop()
       found[count] = jj;
       if ((x_i - particles.at(x, j)).squaredNorm() < reach * reach)
         count++;
-      else if (status[jj])
+      else if (status[jj]) {
+        if constexpr (Accounting)
+          if (keep_ledger && store)
+            book_opening<ContactLaw>(particles, i, j, first_history[i] + size * jj);
         status[jj] = ContactStatus::none;    // its history is stale from here on
+      }
     }
     if (count == 0) continue;
 
@@ -119,17 +126,36 @@ template <class ContactLaw, bool Tally> void PairGranEepa::contact_loop()
       const LeverArms arms = gather_contact<ContactLaw::has_rolling>(
           particles, i, j, offset, offset.squaredNorm(), contact);
       const eepa::Coefficients &c = row[type[j]];
+      // the centre of one in the other: nothing that happens from here on has a meaning
+      if (contact.overlap > std::min(radius_i, radius[j])) stop_at_overlap(i, j, contact.overlap);
 
       double *values = first_history[i] + static_cast<std::ptrdiff_t>(size) * jj;
       eepa::History history;
-      if (status[jj])
+      const bool first = !status[jj];
+      if (!first)
         history = eepa::load_history<rolling_spring>(values);
       else if (!store)
         eepa::store_history<rolling_spring>(history, values);    // virgin, not stale
+      [[maybe_unused]] eepa::History before;
+      if constexpr (Accounting) before = history;
       eepa::Response response =
           ContactLaw::evaluate(c, limit_damping, contact, time_step, history);
       status[jj] = ContactStatus::of(response.branch, response.sliding);
       if (store) eepa::store_history<rolling_spring>(history, values);
+
+      [[maybe_unused]] eepa::StoredEnergy energy;
+      if constexpr (Accounting) {
+        if (eflag_either || keep_ledger)
+          energy = ContactLaw::stored_energy(c, contact.size, contact.overlap, history);
+        if (keep_ledger) {
+          const double share = factor * share_of_pair(j);
+          ledger.store(energy, share);
+          if (store)
+            ledger.dissipated.add(eepa::dissipation_of_step<ContactLaw>(
+                                      c, contact, response, time_step, first, before, history),
+                                  share);
+        }
+      }
 
       Vec3 pair_force = ContactLaw::force_on_i(response, contact);
       Vec3 moment = ContactLaw::tangential_moment(response, contact);
@@ -148,18 +174,45 @@ template <class ContactLaw, bool Tally> void PairGranEepa::contact_loop()
         vector_at(torque, j) -= torque_j;
       }
 
-      if constexpr (Tally) {
-        double energy = 0.0;
-        if (eflag_either)
-          energy = factor *
-              ContactLaw::stored_energy(c, contact.size, contact.overlap, history).total();
-        ev_tally_xyz(i, j, nlocal, newton, energy, 0.0, pair_force[0], pair_force[1],
-                     pair_force[2], offset[0], offset[1], offset[2]);
-      }
+      if constexpr (Accounting)
+        if (evflag)
+          ev_tally_xyz(i, j, nlocal, newton, factor * energy.total(), 0.0, pair_force[0],
+                       pair_force[1], pair_force[2], offset[0], offset[1], offset[2]);
     }
     vector_at(f, i) += force_i;
     vector_at(torque, i) += torque_i;
   }
+}
+
+double PairGranEepa::share_of_pair(int j) const
+{
+  // without newton both ranks hold a pair that crosses them
+  return (force->newton_pair || j < atom->nlocal) ? 1.0 : 0.5;
+}
+
+template <class ContactLaw>
+void PairGranEepa::book_opening(const ParticleArrays &particles, int i, int j,
+                                const double *values)
+{
+  eepa::Contact contact;
+  const Vec3 offset = particles.at(particles.x, i) - particles.at(particles.x, j);
+  gather_contact<true>(particles, i, j, offset, offset.squaredNorm(), contact);
+  ledger.dissipated.add(
+      eepa::dissipation_of_opening<ContactLaw>(
+          coefficients[pair_index(atom->type[i], atom->type[j])], contact, dt,
+          eepa::load_history<ContactLaw::Rolling::has_spring>(values)),
+      share_of_pair(j));
+}
+
+void PairGranEepa::stop_at_overlap(int i, int j, double overlap) const
+{
+  error->one(FLERR,
+             "pair_style gran/eepa: atoms {} and {} overlap by {:.6g} at step {}, more than a radius "
+             "({:.6g} and {:.6g}): the time step is too large, the stiffness too small or the start "
+             "too dense",
+             atom->tag[i], atom->tag[j], overlap, update->ntimestep, atom->radius[i],
+             atom->radius[j]);
+  std::abort();    // error->one does not return
 }
 
 int PairGranEepa::find_history(int i, int j, const double *&values, double &sign) const
@@ -245,7 +298,6 @@ ContactCensus PairGranEepa::census(int groupbit)
   // sums in one array so that one reduction serves: see the assignments below
   double sum[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   double largest = 0.0;
-  const int nlocal = atom->nlocal;
   for (int ii = 0; list && ii < list->inum; ii++) {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; jj++) {
@@ -254,8 +306,7 @@ ContactCensus PairGranEepa::census(int groupbit)
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
       const int ends = ((atom->mask[i] & groupbit) ? 1 : 0) + ((atom->mask[j] & groupbit) ? 1 : 0);
       if (ends == 0) continue;
-      // without newton both ranks hold a pair that crosses them
-      const double share = (force->newton_pair || j < nlocal) ? 1.0 : 0.5;
+      const double share = share_of_pair(j);
       const double reach = atom->radius[i] + atom->radius[j];
       const Vec3 offset = Vec3(atom->x[i]) - Vec3(atom->x[j]);
       const double ratio = (reach - offset.norm()) / reach;

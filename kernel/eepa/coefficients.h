@@ -16,6 +16,8 @@ struct Coefficients {
   double inverse_kt;               ///< 1/kt; 0 where kt = 0
   double plastic_fraction;         ///< linear: (delta_p/delta_max)^n = 1 - k1/k2; plateau: k1/k2
   double adhesive_memory;          ///< linear: delta_max/delta on the adhesive branch, >= 1
+  double loading_loss;             ///< energy lost by loading to delta_max, see NormalLaw::loss
+  double adhesive_loss;            ///< linear: energy lost by the adhesive branch, likewise
   double restitution_damping;      ///< B_n / sqrt(m* k1), [0, 2]; 0 for given dashpots
   double tangential_ratio;         ///< sqrt(kt/k1): B_t/B_n of restitution damping for n = 1
   double viscous_normal;           ///< given B_n, else 0
@@ -39,6 +41,16 @@ EEPA_FUNCTION double restitution_damping(double restitution)
   return 2.0 / std::sqrt(1.0 + ratio * ratio);
 }
 
+namespace detail {
+  /// Energy of a line k2 (x^n - y^n), y = delta_p, taken from y to x, over k2 x^(n+1).
+  /// \param plastic_power  (y/x)^n
+  EEPA_FUNCTION double line_energy(double plastic_power, double n)
+  {
+    const double y = std::pow(plastic_power, 1.0 / n);
+    return (1.0 - plastic_power * y) / (n + 1.0) - plastic_power * (1.0 - y);
+  }
+}    // namespace detail
+
 /// Resolves valid parameters into what the hot loop reads.
 /// \param p  parameters that validate() has no errors on
 /// \param s  settings that validate() has no errors on
@@ -57,12 +69,20 @@ EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
   if (s.law == Law::plateau) {
     c.plastic_fraction = p.k1 / p.k2;
     c.adhesive_memory = 1.0;
+    // k1/2 (parting overlap) (plastic overlap) / delta_max^2: see PlateauLaw::elastic_energy
+    c.loading_loss = 0.5 * p.k1 * (p.k1 / (p.k2 - p.k1)) * c.plastic_fraction;
   } else {
     c.plastic_fraction = (p.k2 - p.k1) / p.k2;
     // delta_p^n = (1 + k_adh/k2) delta^n and delta_p^n = (1 - k1/k2) delta_max^n; with k2 = k1
     // there is no adhesive branch
     c.adhesive_memory =
         p.k2 > p.k1 ? std::pow((p.k2 + p.k_adh) / (p.k2 - p.k1), 1.0 / s.exponent) : 1.0;
+    // work of the branch less (loading) or plus (adhesive) what the k2 line holds at its end
+    const double n = s.exponent;
+    if (p.k2 > p.k1) {
+      c.loading_loss = p.k1 / (n + 1.0) - p.k2 * detail::line_energy(c.plastic_fraction, n);
+      c.adhesive_loss = p.k_adh / (n + 1.0) + p.k2 * detail::line_energy(1.0 + p.k_adh / p.k2, n);
+    }
   }
   if (p.damping == Damping::restitution) {
     c.restitution_damping = restitution_damping(p.restitution);

@@ -126,6 +126,22 @@ struct PlateauLaw {
       energy += 0.5 * c.k1 * (overlap - parting_overlap) * (overlap + parting_overlap);
     return s * energy + scale.force() * c.f0 * overlap;
   }
+
+  /// Energy lost to hysteresis while the remembered overlap went from `before` to `after`.
+  /// Only loading loses; the plateau gives back what it took until the contact opens.
+  EEPA_FUNCTION static double loss(const Coefficients &c, const Scale &scale, double before,
+                                   double after)
+  {
+    return scale.stiffness() * c.loading_loss * (after - before) * (after + before);
+  }
+
+  /// Energy lost when a contact opens: what it holds at delta = 0. Negative, that is created,
+  /// where f0 != 0 outweighs the plateau: by up to |f0| times the overlap at which it begins.
+  EEPA_FUNCTION static double opening_loss(const Coefficients &c, const Scale &scale,
+                                           double max_overlap)
+  {
+    return elastic_energy(c, scale, 0.0, max_overlap);
+  }
 };
 
 /// The law as published (Thakur et al., Granular Matter 16 (2014) 383, equations 1-4; for
@@ -205,6 +221,27 @@ template <class ExponentPolicy> struct LinearLaw {
       if (energy < 0.0) energy = 0.0;
     }
     return scale.stiffness() * c.k2 * energy + scale.force() * c.f0 * overlap;
+  }
+
+  /// Energy lost to hysteresis while the remembered overlap went from `before` to `after`: up
+  /// by loading, or down along the adhesive branch. Exact for any path between the two.
+  /// \return [force length], >= 0
+  EEPA_FUNCTION static double loss(const Coefficients &c, const Scale &scale, double before,
+                                   double after)
+  {
+    if (after >= before)
+      return scale.stiffness() * c.loading_loss *
+          (after * Exponent::power(after, c, scale) - before * Exponent::power(before, c, scale));
+    return opening_loss(c, scale, before) - opening_loss(c, scale, after);
+  }
+
+  /// Energy lost when a contact opens: that of the adhesive branch from where unloading meets
+  /// it down to delta = 0. Nothing stays stored there.
+  EEPA_FUNCTION static double opening_loss(const Coefficients &c, const Scale &scale,
+                                           double max_overlap)
+  {
+    const double onset = max_overlap / c.adhesive_memory;
+    return scale.stiffness() * c.adhesive_loss * onset * Exponent::power(onset, c, scale);
   }
 };
 

@@ -16,7 +16,8 @@ struct SliderForce {
 ///
 /// f = -k xi - B v. Where |f| exceeds the bound, f is scaled back onto it and xi is reset so
 /// that -k xi - B v is f again: the next step starts on the bound (contract, section 1;
-/// Luding 2008, section 2.3).
+/// Luding 2008, section 2.3). Where the dashpot alone exceeds the bound, no spring is left: one
+/// that held the dashpot back would be wound up by nobody and later drive the contact.
 /// \param stiffness, inverse_stiffness  k >= 0 and 1/k (0 where k = 0)
 /// \param viscous  B >= 0
 /// \param bound  >= 0 [force]
@@ -32,14 +33,11 @@ EEPA_FUNCTION SliderForce slider_force(double stiffness, double inverse_stiffnes
   const double length_squared = result.force.squaredNorm();
   if (length_squared > bound * bound) {
     result.sliding = true;
-    if (bound > 0.0) {
-      result.force *= bound / std::sqrt(length_squared);
+    result.force *= bound / std::sqrt(length_squared);
+    if (dashpot.squaredNorm() < bound * bound)
       spring = inverse_stiffness * (dashpot - result.force);
-    } else {
-      // nothing holds: a spring that only balances the dashpot would store energy for no force
-      result.force.setZero();
+    else
       spring.setZero();
-    }
   }
   return result;
 }

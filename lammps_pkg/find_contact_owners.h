@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-only
-#ifndef LMP_EEPA_FIND_PAIRS_H
-#define LMP_EEPA_FIND_PAIRS_H
+#ifndef LMP_EEPA_FIND_CONTACT_OWNERS_H
+#define LMP_EEPA_FIND_CONTACT_OWNERS_H
 
+#include "fix_wall_gran_eepa.h"
 #include "pair_gran_eepa.h"
 
 #include "force.h"
+#include "modify.h"
 
 #include <vector>
 
@@ -20,6 +22,15 @@ inline std::vector<PairGranEepa *> find_eepa_pairs(Force *force)
     if (!pair || (!found.empty() && found.back() == pair)) break;
     found.push_back(pair);
   }
+  return found;
+}
+
+/// Every fix wall/gran/eepa.
+inline std::vector<FixWallGranEepa *> find_eepa_walls(Modify *modify)
+{
+  std::vector<FixWallGranEepa *> found;
+  for (auto *fix : modify->get_fix_list())
+    if (auto *wall = dynamic_cast<FixWallGranEepa *>(fix)) found.push_back(wall);
   return found;
 }
 

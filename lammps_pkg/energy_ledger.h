@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef LMP_EEPA_ENERGY_LEDGER_H
+#define LMP_EEPA_ENERGY_LEDGER_H
+
+#include <eepa/dissipation.h>
+
+#include "modify.h"
+
+namespace LAMMPS_NS {
+
+/// One rank's energies of the contacts of a pair style or a wall. Kept only while a compute
+/// gran/eepa/energy exists.
+struct EnergyLedger {
+  eepa::StoredEnergy elastic;       ///< now, at the last force call
+  eepa::Dissipation dissipated;     ///< since the ledger is kept
+  double wall_work = 0.0;           ///< done on particles since then, walls only
+
+  void store(const eepa::StoredEnergy &energy, double share)
+  {
+    elastic.normal += share * energy.normal;
+    elastic.tangential += share * energy.tangential;
+    elastic.rolling += share * energy.rolling;
+  }
+
+  static bool wanted(Modify *modify)
+  {
+    return !modify->get_compute_by_style("^gran/eepa/energy").empty();
+  }
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
