@@ -56,9 +56,13 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
   Dissipation lost;
   const Scale scale = contact_scale(c, contact.size);
   const double share = first ? 0.75 : 1.0;
-  lost.hysteresis = ContactLaw::Normal::loss(c, scale, before.max_overlap, after.max_overlap);
-
   const double normal_velocity = contact.velocity.dot(contact.normal);
+  // a contact that starts with an overlap (a packing's first step) was not loaded up to it
+  double loaded = before.max_overlap;
+  if (loaded == 0.0) loaded = contact.overlap + normal_velocity * time_step;
+  if (loaded < 0.0) loaded = 0.0;
+  lost.hysteresis = ContactLaw::Normal::loss(c, scale, loaded, after.max_overlap);
+
   lost.normal_dashpot = -share * time_step * normal_velocity *
       (response.normal_force - response.hysteretic_force);
 
