@@ -17,7 +17,10 @@ namespace {
 
   constexpr double restart_format = 1.0;
 
-  [[noreturn]] void refuse(const std::string &message) { throw std::invalid_argument(message); }
+  [[noreturn]] void refuse(const std::string &message)
+  {
+    throw std::invalid_argument(message);
+  }
 
   std::string joined(const Words &words)
   {
@@ -114,10 +117,9 @@ namespace {
 double parse_number(const std::string &name, const std::string &word)
 {
   // strtod would take leading blanks, hexadecimals and the like
-  const bool plain = !word.empty() &&
-      std::all_of(word.begin(), word.end(), [](unsigned char c) {
-        return std::isdigit(c) || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
-      });
+  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isdigit(c) || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
+  });
   char *end = nullptr;
   const double value = plain ? std::strtod(word.c_str(), &end) : 0.0;
   if (!plain || *end != '\0' || !std::isfinite(value))

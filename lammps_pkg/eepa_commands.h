@@ -38,8 +38,7 @@ std::size_t parse_style(const Words &words, std::size_t first, const std::string
 /// \return index of the first word not read
 /// \throw std::invalid_argument naming argument, value and what is allowed
 std::size_t parse_parameters(const Words &words, std::size_t first, const std::string &stop,
-                             const LawSettings &settings, Parameters &parameters,
-                             Words &warnings);
+                             const LawSettings &settings, Parameters &parameters, Words &warnings);
 
 /// Reads a finite number.
 /// \throw std::invalid_argument naming `name` and the word

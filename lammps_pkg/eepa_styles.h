@@ -17,7 +17,7 @@ struct EepaStyle {
   const char *category;    // "pair", "fix" or "compute"
   const char *name;
   const char *info;
-  Pair *(*make_pair)(LAMMPS *);                   // set where category says so
+  Pair *(*make_pair)(LAMMPS *);    // set where category says so
   Fix *(*make_fix)(LAMMPS *, int, char **);
   Compute *(*make_compute)(LAMMPS *, int, char **);
 };

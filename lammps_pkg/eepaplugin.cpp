@@ -32,13 +32,13 @@ void require_same_lammps(LAMMPS *lmp)
   if (lammps_extract_setting(lmp, "tagint") != tagint_size ||
       lammps_extract_setting(lmp, "bigint") != bigint_size ||
       lammps_extract_setting(lmp, "imageint") != imageint_size)
-    lmp->error->all(FLERR,
-                    "plugin eepaplugin.so was compiled for tagint, bigint and imageint of {}, {} and "
-                    "{} bytes and can not be loaded into a LAMMPS with {}, {} and {}: compile it with "
-                    "the same LAMMPS_SIZES",
-                    tagint_size, bigint_size, imageint_size,
-                    lammps_extract_setting(lmp, "tagint"), lammps_extract_setting(lmp, "bigint"),
-                    lammps_extract_setting(lmp, "imageint"));
+    lmp->error->all(
+        FLERR,
+        "plugin eepaplugin.so was compiled for tagint, bigint and imageint of {}, {} and "
+        "{} bytes and can not be loaded into a LAMMPS with {}, {} and {}: compile it with "
+        "the same LAMMPS_SIZES",
+        tagint_size, bigint_size, imageint_size, lammps_extract_setting(lmp, "tagint"),
+        lammps_extract_setting(lmp, "bigint"), lammps_extract_setting(lmp, "imageint"));
 }
 
 }    // namespace

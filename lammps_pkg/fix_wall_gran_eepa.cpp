@@ -97,8 +97,7 @@ FixWallGranEepa::~FixWallGranEepa()
 
 void FixWallGranEepa::require(int narg, int iarg, int count, const char *what)
 {
-  if (iarg + count > narg)
-    error->all(FLERR, "fix {} wall/gran/eepa: missing value: {}", id, what);
+  if (iarg + count > narg) error->all(FLERR, "fix {} wall/gran/eepa: missing value: {}", id, what);
 }
 
 double FixWallGranEepa::number(const char *name, const char *word)
@@ -115,8 +114,9 @@ int FixWallGranEepa::dimension(const char *name, const char *word)
 {
   const std::string dim = word;
   if (dim != "x" && dim != "y" && dim != "z")
-    error->all(FLERR, "fix {} wall/gran/eepa: {} dimension '{}' is not allowed: it must be x, y or z",
-               id, name, dim);
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: {} dimension '{}' is not allowed: it must be x, y or z", id,
+               name, dim);
   return dim[0] - 'x';
 }
 
@@ -129,10 +129,12 @@ int FixWallGranEepa::parse_wall(int narg, char **arg, int iarg)
     surfaces.kind = WallSurfaces::zcylinder;
     surfaces.radius = number("wall zcylinder R", arg[iarg + 1]);
     if (surfaces.radius <= 0.0)
-      error->all(FLERR, "fix {} wall/gran/eepa: wall zcylinder R = {} is not allowed: it must be > 0",
-                 id, arg[iarg + 1]);
+      error->all(FLERR,
+                 "fix {} wall/gran/eepa: wall zcylinder R = {} is not allowed: it must be > 0", id,
+                 arg[iarg + 1]);
     if (domain->xperiodic || domain->yperiodic)
-      error->all(FLERR, "fix {} wall/gran/eepa: wall zcylinder can not be used where x or y is periodic",
+      error->all(FLERR,
+                 "fix {} wall/gran/eepa: wall zcylinder can not be used where x or y is periodic",
                  id);
     return iarg + 2;
   }
@@ -148,14 +150,15 @@ int FixWallGranEepa::parse_wall(int narg, char **arg, int iarg)
   if (surfaces.has_lo) surfaces.lo = number("wall lo", arg[iarg + 1]);
   if (surfaces.has_hi) surfaces.hi = number("wall hi", arg[iarg + 2]);
   if (!surfaces.has_lo && !surfaces.has_hi)
-    error->all(FLERR, "fix {} wall/gran/eepa: wall {} NULL NULL has no surface: give lo, hi or both",
-               id, kind);
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: wall {} NULL NULL has no surface: give lo, hi or both", id,
+               kind);
   if (surfaces.has_lo && surfaces.has_hi && surfaces.lo >= surfaces.hi)
     error->all(FLERR, "fix {} wall/gran/eepa: wall {} lo = {} is not allowed: it must be < hi = {}",
                id, kind, arg[iarg + 1], arg[iarg + 2]);
   if (domain->periodicity[surfaces.axis()])
-    error->all(FLERR, "fix {} wall/gran/eepa: wall {} can not be used where {} is periodic", id, kind,
-               kind[0]);
+    error->all(FLERR, "fix {} wall/gran/eepa: wall {} can not be used where {} is periodic", id,
+               kind, kind[0]);
   return iarg + 3;
 }
 
@@ -167,12 +170,14 @@ int FixWallGranEepa::parse_motion(int narg, char **arg, int iarg)
     return iarg + 1;
   }
   if (key != "velocity" && key != "wiggle" && key != "shear")
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: keyword '{}' is unknown: it must be velocity, wiggle, shear or "
-               "contacts",
-               id, key);
+    error->all(
+        FLERR,
+        "fix {} wall/gran/eepa: keyword '{}' is unknown: it must be velocity, wiggle, shear or "
+        "contacts",
+        id, key);
   if (motion != Motion::still)
-    error->all(FLERR, "fix {} wall/gran/eepa: only one of velocity, wiggle and shear is allowed", id);
+    error->all(FLERR, "fix {} wall/gran/eepa: only one of velocity, wiggle and shear is allowed",
+               id);
 
   if (key == "velocity") {
     require(narg, iarg, 4, "velocity vx vy vz");
@@ -192,8 +197,8 @@ int FixWallGranEepa::parse_motion(int narg, char **arg, int iarg)
     amplitude = number("wiggle A", arg[iarg + 2]);
     period = number("wiggle period", arg[iarg + 3]);
     if (period <= 0.0)
-      error->all(FLERR, "fix {} wall/gran/eepa: wiggle period = {} is not allowed: it must be > 0", id,
-                 arg[iarg + 3]);
+      error->all(FLERR, "fix {} wall/gran/eepa: wiggle period = {} is not allowed: it must be > 0",
+                 id, arg[iarg + 3]);
     return iarg + 4;
   }
   require(narg, iarg, 3, "shear dim v");
@@ -201,10 +206,11 @@ int FixWallGranEepa::parse_motion(int narg, char **arg, int iarg)
   motion_axis = dimension("shear", arg[iarg + 1]);
   shear_velocity = number("shear v", arg[iarg + 2]);
   if (surfaces.is_plane() && motion_axis == surfaces.axis())
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: shear dimension {} is not allowed: it must lie in the plane; "
-               "use velocity to move a plane along its normal",
-               id, arg[iarg + 1]);
+    error->all(
+        FLERR,
+        "fix {} wall/gran/eepa: shear dimension {} is not allowed: it must lie in the plane; "
+        "use velocity to move a plane along its normal",
+        id, arg[iarg + 1]);
   return iarg + 3;
 }
 
@@ -228,9 +234,10 @@ void FixWallGranEepa::init()
     if (index < 0)
       error->all(FLERR, "fix {} wall/gran/eepa: velocity variable {} does not exist", id, name);
     if (!input->variable->equalstyle(index))
-      error->all(FLERR,
-                 "fix {} wall/gran/eepa: velocity variable {} is not allowed: it must be equal-style",
-                 id, name);
+      error->all(
+          FLERR,
+          "fix {} wall/gran/eepa: velocity variable {} is not allowed: it must be equal-style", id,
+          name);
   }
 }
 
@@ -324,12 +331,9 @@ int FixWallGranEepa::size_restart(int /*i*/)
 void FixWallGranEepa::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
-  const double numbers[restart_size] = {restart_format,
-                                        static_cast<double>(n_values),
-                                        displacement[0],
-                                        displacement[1],
-                                        displacement[2],
-                                        static_cast<double>(time_origin)};
+  const double numbers[restart_size] = {restart_format,  static_cast<double>(n_values),
+                                        displacement[0], displacement[1],
+                                        displacement[2], static_cast<double>(time_origin)};
   const int bytes = sizeof(numbers);
   fwrite(&bytes, sizeof(int), 1, fp);
   fwrite(numbers, sizeof(double), restart_size, fp);
@@ -340,8 +344,9 @@ void FixWallGranEepa::restart(char *buf)
   double numbers[restart_size];
   std::memcpy(numbers, buf, sizeof(numbers));
   if (numbers[0] != restart_format)
-    error->all(FLERR, "fix {} wall/gran/eepa: the restart file has format {}, this version reads {}",
-               id, numbers[0], restart_format);
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: the restart file has format {}, this version reads {}", id,
+               numbers[0], restart_format);
   std::copy_n(numbers + 2, 3, displacement.begin());
   time_origin = static_cast<bigint>(numbers[5]);
 }

@@ -109,8 +109,8 @@ class FixWallGranEepa : public Fix {
   bigint time_origin = 0;
 
   double dt = 0.0;
-  int history_size;    // values of one contact
-  int n_values;        // values of all surfaces
+  int history_size;              // values of one contact
+  int n_values;                  // values of all surfaces
   double **history = nullptr;    // nmax x n_values, delta_max = 0 where there is no contact
   bool contact_table = false;
   std::array<SurfaceSum, 2> felt;

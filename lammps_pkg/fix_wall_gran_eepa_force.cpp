@@ -24,14 +24,16 @@ using eepa::Vec3;
 
 void FixWallGranEepa::evaluate_velocity()
 {
-  const bool any = std::any_of(velocity_variable.begin(), velocity_variable.end(),
-                               [](const std::string &name) { return !name.empty(); });
+  const bool any =
+      std::any_of(velocity_variable.begin(), velocity_variable.end(), [](const std::string &name) {
+        return !name.empty();
+      });
   if (!any) return;
   modify->clearstep_compute();
   for (int k = 0; k < 3; k++) {
     if (velocity_variable[k].empty()) continue;
-    velocity[k] = input->variable->compute_equal(
-        input->variable->find(velocity_variable[k].c_str()));
+    velocity[k] =
+        input->variable->compute_equal(input->variable->find(velocity_variable[k].c_str()));
   }
   modify->addstep_compute(update->ntimestep + 1);
 }
@@ -50,7 +52,8 @@ void FixWallGranEepa::move_surfaces()
   surfaces.surface_speed = 0.0;
   surfaces.displacement = {0.0, 0.0, 0.0};
   switch (motion) {
-    case Motion::still: break;
+    case Motion::still:
+      break;
     case Motion::velocity:
       surfaces.velocity = velocity;
       surfaces.displacement = displacement;
@@ -160,13 +163,13 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
       const Vec3 force = ContactLaw::force_on_i(response, contact);
       if (keep_ledger) {
         power += force.dot(point.velocity);
-        ledger.store(
-            ContactLaw::stored_energy(coefficients, contact.size, contact.overlap, state), 1.0);
+        ledger.store(ContactLaw::stored_energy(coefficients, contact.size, contact.overlap, state),
+                     1.0);
         if (store)
-          ledger.dissipated.add(
-              eepa::dissipation_of_step<ContactLaw>(coefficients, contact, response, time_step,
-                                                    !known, before, state),
-              1.0);
+          ledger.dissipated.add(eepa::dissipation_of_step<ContactLaw>(coefficients, contact,
+                                                                      response, time_step, !known,
+                                                                      before, state),
+                                1.0);
       }
       Vec3 turn = -arm * ContactLaw::tangential_moment(response, contact);
       if constexpr (ContactLaw::has_rolling) turn += response.rolling_torque;
@@ -196,10 +199,11 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
 
 void FixWallGranEepa::stop_at_overlap(int i, double overlap) const
 {
-  error->one(FLERR,
-             "fix {} wall/gran/eepa: atom {} overlaps the wall by {:.6g} at step {}, more than its "
-             "radius {:.6g}: the time step is too large, the stiffness too small or the wall too fast",
-             id, atom->tag[i], overlap, update->ntimestep, atom->radius[i]);
+  error->one(
+      FLERR,
+      "fix {} wall/gran/eepa: atom {} overlaps the wall by {:.6g} at step {}, more than its "
+      "radius {:.6g}: the time step is too large, the stiffness too small or the wall too fast",
+      id, atom->tag[i], overlap, update->ntimestep, atom->radius[i]);
 }
 
 double FixWallGranEepa::compute_vector(int n)

@@ -165,8 +165,7 @@ void PairGranEepa::coeff(int narg, char **arg)
 void PairGranEepa::init_style()
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-    error->all(FLERR,
-               "{}: atoms must have radius, rmass, omega and torque; use atom_style sphere",
+    error->all(FLERR, "{}: atoms must have radius, rmass, omega and torque; use atom_style sphere",
                style_name);
   if (!comm->ghost_velocity)
     error->all(FLERR, "{}: ghost atoms must have velocities; use comm_modify vel yes", style_name);
@@ -249,7 +248,8 @@ double PairGranEepa::init_one(int i, int j)
   if (setflag[i][j] == 0) {
     std::string why;
     if (setflag[i][i] == 0 || setflag[j][j] == 0)
-      error->all(FLERR, "{}: pair_coeff {} {} is not given and can not be mixed without {} {} and {} {}",
+      error->all(FLERR,
+                 "{}: pair_coeff {} {} is not given and can not be mixed without {} {} and {} {}",
                  style_name, i, j, i, i, j, j);
     if (!eepa::mix(parameters[pair_index(i, i)], parameters[pair_index(j, j)], own, why))
       error->all(FLERR, "{}: pair_coeff {} {} can not be mixed: {}; give it", style_name, i, j,
@@ -277,8 +277,8 @@ void PairGranEepa::setup()
   const TimeStepBound bound = largest_time_step();
   if (update->dt <= bound.time_step) return;
   const auto message = fmt::format(
-      "{}: timestep {:.6g} is larger than {:.6g} = 0.2 sqrt(m_min/k_max), which {} sets", style_name,
-      update->dt, bound.time_step, bound.origin);
+      "{}: timestep {:.6g} is larger than {:.6g} = 0.2 sqrt(m_min/k_max), which {} sets",
+      style_name, update->dt, bound.time_step, bound.origin);
   if (style.time_step_check == eepa::TimeStepCheck::error)
     error->all(FLERR, message);
   else if (comm->me == 0)

@@ -33,8 +33,8 @@ struct ContactCensus {
 
 /// A bound on the time step and what sets it.
 struct TimeStepBound {
-  double time_step;     ///< [time]; infinity where nothing can touch
-  std::string origin;   ///< "pair of types 1 and 2", "fix top"
+  double time_step;      ///< [time]; infinity where nothing can touch
+  std::string origin;    ///< "pair of types 1 and 2", "fix top"
 };
 
 /// pair_style gran/eepa: gathers what a contact needs, calls the kernel's law, stores its
@@ -78,7 +78,10 @@ class PairGranEepa : public Pair {
   /// The largest stable time step over all contacts that could form. Collective.
   TimeStepBound largest_time_step();
   /// This rank's energies; all zero unless a compute gran/eepa/energy existed at the last init.
-  const EnergyLedger &energy_ledger() const { return ledger; }
+  const EnergyLedger &energy_ledger() const
+  {
+    return ledger;
+  }
 
  protected:
   /// The quantities of single() beyond the force, in the order of p1, p2, ...
@@ -91,10 +94,10 @@ class PairGranEepa : public Pair {
     TANGENTIAL_X,       ///< tangential force on i
     TANGENTIAL_Y,
     TANGENTIAL_Z,
-    TANGENTIAL,            ///< its magnitude
-    HYSTERETIC,            ///< f_hys
-    FRICTION_BOUND,        ///< what TANGENTIAL can not exceed
-    ENERGY_NORMAL,         ///< recoverable energies
+    TANGENTIAL,        ///< its magnitude
+    HYSTERETIC,        ///< f_hys
+    FRICTION_BOUND,    ///< what TANGENTIAL can not exceed
+    ENERGY_NORMAL,     ///< recoverable energies
     ENERGY_TANGENTIAL,
     ENERGY_ROLLING,
     ROLLING_TORQUE_X,    ///< rolling torque on i
@@ -104,8 +107,8 @@ class PairGranEepa : public Pair {
   };
 
   eepa::StyleArguments style;
-  std::vector<eepa::Parameters> parameters;        // as given or mixed, (ntypes+1)^2
-  std::vector<eepa::Coefficients> coefficients;    // resolved, (ntypes+1)^2
+  std::vector<eepa::Parameters> parameters;                 // as given or mixed, (ntypes+1)^2
+  std::vector<eepa::Coefficients> coefficients;             // resolved, (ntypes+1)^2
   eepa::RollingModel rolling = eepa::RollingModel::none;    // of all types together
   ContactMasses masses;
   double dt = 0.0;
@@ -128,7 +131,10 @@ class PairGranEepa : public Pair {
                                          eepa::History &, double &);
   Single single_law = nullptr;
 
-  int pair_index(int itype, int jtype) const { return itype * (ntypes_allocated + 1) + jtype; }
+  int pair_index(int itype, int jtype) const
+  {
+    return itype * (ntypes_allocated + 1) + jtype;
+  }
   int ntypes_allocated = 0;
   void allocate();
   void choose_law();

@@ -123,8 +123,8 @@ template <class ContactLaw, bool Accounting> void PairGranEepa::contact_loop()
       if (factor == 0.0) continue;
 
       const Vec3 offset = x_i - particles.at(x, j);
-      const LeverArms arms = gather_contact<ContactLaw::has_rolling>(
-          particles, i, j, offset, offset.squaredNorm(), contact);
+      const LeverArms arms = gather_contact<ContactLaw::has_rolling>(particles, i, j, offset,
+                                                                     offset.squaredNorm(), contact);
       const eepa::Coefficients &c = row[type[j]];
       // the centre of one in the other: nothing that happens from here on has a meaning
       if (contact.overlap > std::min(radius_i, radius[j])) stop_at_overlap(i, j, contact.overlap);
@@ -138,8 +138,7 @@ template <class ContactLaw, bool Accounting> void PairGranEepa::contact_loop()
         eepa::store_history<rolling_spring>(history, values);    // virgin, not stale
       [[maybe_unused]] eepa::History before;
       if constexpr (Accounting) before = history;
-      eepa::Response response =
-          ContactLaw::evaluate(c, limit_damping, contact, time_step, history);
+      eepa::Response response = ContactLaw::evaluate(c, limit_damping, contact, time_step, history);
       status[jj] = ContactStatus::of(response.branch, response.sliding);
       if (store) eepa::store_history<rolling_spring>(history, values);
 
@@ -191,27 +190,25 @@ double PairGranEepa::share_of_pair(int j) const
 }
 
 template <class ContactLaw>
-void PairGranEepa::book_opening(const ParticleArrays &particles, int i, int j,
-                                const double *values)
+void PairGranEepa::book_opening(const ParticleArrays &particles, int i, int j, const double *values)
 {
   eepa::Contact contact;
   const Vec3 offset = particles.at(particles.x, i) - particles.at(particles.x, j);
   gather_contact<true>(particles, i, j, offset, offset.squaredNorm(), contact);
-  ledger.dissipated.add(
-      eepa::dissipation_of_opening<ContactLaw>(
-          coefficients[pair_index(atom->type[i], atom->type[j])], contact, dt,
-          eepa::load_history<ContactLaw::Rolling::has_spring>(values)),
-      share_of_pair(j));
+  ledger.dissipated.add(eepa::dissipation_of_opening<ContactLaw>(
+                            coefficients[pair_index(atom->type[i], atom->type[j])], contact, dt,
+                            eepa::load_history<ContactLaw::Rolling::has_spring>(values)),
+                        share_of_pair(j));
 }
 
 void PairGranEepa::stop_at_overlap(int i, int j, double overlap) const
 {
-  error->one(FLERR,
-             "pair_style gran/eepa: atoms {} and {} overlap by {:.6g} at step {}, more than a radius "
-             "({:.6g} and {:.6g}): the time step is too large, the stiffness too small or the start "
-             "too dense",
-             atom->tag[i], atom->tag[j], overlap, update->ntimestep, atom->radius[i],
-             atom->radius[j]);
+  error->one(
+      FLERR,
+      "pair_style gran/eepa: atoms {} and {} overlap by {:.6g} at step {}, more than a radius "
+      "({:.6g} and {:.6g}): the time step is too large, the stiffness too small or the start "
+      "too dense",
+      atom->tag[i], atom->tag[j], overlap, update->ntimestep, atom->radius[i], atom->radius[j]);
   std::abort();    // error->one does not return
 }
 

@@ -11,9 +11,9 @@ namespace LAMMPS_NS {
 
 /// Where a surface is nearest to a particle.
 struct SurfacePoint {
-  double overlap;           ///< R_i - distance; > 0 in contact [length]
-  eepa::Vec3 normal;        ///< unit vector from the surface to the particle
-  eepa::Vec3 velocity;      ///< of the surface at that point [length/time]
+  double overlap;         ///< R_i - distance; > 0 in contact [length]
+  eepa::Vec3 normal;      ///< unit vector from the surface to the particle
+  eepa::Vec3 velocity;    ///< of the surface at that point [length/time]
 };
 
 /// The surfaces of one wall: two planes normal to an axis, or the lateral surface of a cylinder

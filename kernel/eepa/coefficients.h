@@ -11,19 +11,19 @@ namespace eepa {
 /// What the hot loop reads for one pair of types: parameters at d_ref, with everything
 /// derived from them that does not change from contact to contact.
 struct Coefficients {
-  double k1, k2, k_adh, f0;        ///< as in Parameters
-  double mu, kt;                   ///< as in Parameters, kt resolved
-  double inverse_kt;               ///< 1/kt; 0 where kt = 0
-  double plastic_fraction;         ///< linear: (delta_p/delta_max)^n = 1 - k1/k2; plateau: k1/k2
-  double adhesive_memory;          ///< linear: delta_max/delta on the adhesive branch, >= 1
-  double loading_loss;             ///< energy lost by loading to delta_max, see NormalLaw::loss
-  double adhesive_loss;            ///< linear: energy lost by the adhesive branch, likewise
-  double restitution_damping;      ///< B_n / sqrt(m* k1), [0, 2]; 0 for given dashpots
-  double tangential_ratio;         ///< sqrt(kt/k1): B_t/B_n of restitution damping for n = 1
-  double viscous_normal;           ///< given B_n, else 0
-  double viscous_tangential;       ///< given B_t, else 0
+  double k1, k2, k_adh, f0;      ///< as in Parameters
+  double mu, kt;                 ///< as in Parameters, kt resolved
+  double inverse_kt;             ///< 1/kt; 0 where kt = 0
+  double plastic_fraction;       ///< linear: (delta_p/delta_max)^n = 1 - k1/k2; plateau: k1/k2
+  double adhesive_memory;        ///< linear: delta_max/delta on the adhesive branch, >= 1
+  double loading_loss;           ///< energy lost by loading to delta_max, see NormalLaw::loss
+  double adhesive_loss;          ///< linear: energy lost by the adhesive branch, likewise
+  double restitution_damping;    ///< B_n / sqrt(m* k1), [0, 2]; 0 for given dashpots
+  double tangential_ratio;       ///< sqrt(kt/k1): B_t/B_n of restitution damping for n = 1
+  double viscous_normal;         ///< given B_n, else 0
+  double viscous_tangential;     ///< given B_t, else 0
   double mu_r, kr, inverse_kr, rolling_viscous;
-  double exponent;                 ///< n
+  double exponent;                      ///< n
   double inverse_reference_diameter;    ///< 1/d_ref, or 0 when nothing scales
 };
 
@@ -75,8 +75,8 @@ EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
     c.plastic_fraction = (p.k2 - p.k1) / p.k2;
     // delta_p^n = (1 + k_adh/k2) delta^n and delta_p^n = (1 - k1/k2) delta_max^n; with k2 = k1
     // there is no adhesive branch
-    c.adhesive_memory =
-        p.k2 > p.k1 ? std::pow((p.k2 + p.k_adh) / (p.k2 - p.k1), 1.0 / s.exponent) : 1.0;
+    c.adhesive_memory = p.k2 > p.k1 ? std::pow((p.k2 + p.k_adh) / (p.k2 - p.k1), 1.0 / s.exponent)
+                                    : 1.0;
     // work of the branch less (loading) or plus (adhesive) what the k2 line holds at its end
     const double n = s.exponent;
     if (p.k2 > p.k1) {

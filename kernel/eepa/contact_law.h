@@ -38,8 +38,8 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
   using Normal = NormalLaw;
   using Rolling = RollingLaw;
   static constexpr bool has_rolling = RollingLaw::model != RollingModel::none;
-  static constexpr int history_size =
-      RollingLaw::has_spring ? SIZE_WITH_ROLLING : SIZE_WITHOUT_ROLLING;
+  static constexpr int history_size = RollingLaw::has_spring ? SIZE_WITH_ROLLING
+                                                             : SIZE_WITHOUT_ROLLING;
 
   /// Forces of a contact and its state after this step.
   ///
@@ -67,8 +67,8 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
     const double normal_part = c.restitution_damping * root_mass_stiffness;
     double tangential_part = normal_part * c.tangential_ratio;
     if constexpr (!NormalLaw::Exponent::is_unit)
-      tangential_part = c.restitution_damping *
-          std::sqrt(contact.effective_mass * scale.stiffness() * c.kt);
+      tangential_part =
+          c.restitution_damping * std::sqrt(contact.effective_mass * scale.stiffness() * c.kt);
     const double viscous_normal = normal_part + scale.force() * c.viscous_normal;
     const double viscous_tangential = tangential_part + scale.force() * c.viscous_tangential;
 

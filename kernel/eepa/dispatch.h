@@ -14,9 +14,12 @@ namespace detail {
   auto with_rolling(RollingModel model, Function &&function)
   {
     switch (model) {
-      case RollingModel::constant: return function(ContactLaw<NormalLaw, RollingConstant>{});
-      case RollingModel::sds: return function(ContactLaw<NormalLaw, RollingSds>{});
-      case RollingModel::none: break;
+      case RollingModel::constant:
+        return function(ContactLaw<NormalLaw, RollingConstant>{});
+      case RollingModel::sds:
+        return function(ContactLaw<NormalLaw, RollingSds>{});
+      case RollingModel::none:
+        break;
     }
     return function(ContactLaw<NormalLaw, RollingNone>{});
   }
@@ -27,8 +30,7 @@ namespace detail {
 template <class Function>
 auto with_law(const LawSettings &settings, RollingModel model, Function &&function)
 {
-  if (settings.law == Law::plateau)
-    return detail::with_rolling<PlateauLaw>(model, function);
+  if (settings.law == Law::plateau) return detail::with_rolling<PlateauLaw>(model, function);
   if (settings.exponent == 1.0)
     return detail::with_rolling<LinearLaw<UnitExponent>>(model, function);
   return detail::with_rolling<LinearLaw<GeneralExponent>>(model, function);

@@ -63,8 +63,8 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
   if (loaded < 0.0) loaded = 0.0;
   lost.hysteresis = ContactLaw::Normal::loss(c, scale, loaded, after.max_overlap);
 
-  lost.normal_dashpot = -share * time_step * normal_velocity *
-      (response.normal_force - response.hysteretic_force);
+  lost.normal_dashpot =
+      -share * time_step * normal_velocity * (response.normal_force - response.hysteretic_force);
 
   const double stiffness = scale.stiffness() * c.kt;
   const Vec3 velocity = tangential_velocity(contact, normal_velocity);
@@ -80,8 +80,7 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
     lost.rolling = -share * work;
     if constexpr (ContactLaw::Rolling::has_spring) {
       const double kr = scale.stiffness() * c.kr;
-      const Vec3 rolled =
-          contact.effective_radius * contact.angular_velocity.cross(contact.normal);
+      const Vec3 rolled = contact.effective_radius * contact.angular_velocity.cross(contact.normal);
       const Vec3 earlier = rotate_into_plane(before.rolling_spring, contact.normal);
       lost.rolling = detail::slip_loss(kr, earlier, after.rolling_spring, time_step * rolled) -
           share * (work + kr * time_step * after.rolling_spring.dot(rolled));
@@ -106,8 +105,8 @@ EEPA_FUNCTION Dissipation dissipation_of_opening(const Coefficients &c, const Co
   if constexpr (ContactLaw::Normal::Exponent::is_unit) {
     // for n != 1 the dashpot fades out with the overlap
     const double normal_velocity = contact.velocity.dot(contact.normal);
-    const double viscous = c.restitution_damping *
-            std::sqrt(contact.effective_mass * scale.stiffness() * c.k1) +
+    const double viscous =
+        c.restitution_damping * std::sqrt(contact.effective_mass * scale.stiffness() * c.k1) +
         scale.force() * c.viscous_normal;
     lost.normal_dashpot = 0.25 * viscous * normal_velocity * normal_velocity * time_step;
   }

@@ -9,9 +9,9 @@ namespace eepa {
 /// Where each quantity of a contact's state lies in a driver's flat array of doubles.
 /// This list is the only place that knows.
 enum HistoryIndex : int {
-  MAX_OVERLAP = 0,         ///< overlap where unloading meets loading [length], >= 0
-  TANGENTIAL_SPRING = 1,   ///< 1..3: tangential spring of i against j [length]
-  ROLLING_SPRING = 4,      ///< 4..6: rolling spring, with RollingModel::sds only [length]
+  MAX_OVERLAP = 0,          ///< overlap where unloading meets loading [length], >= 0
+  TANGENTIAL_SPRING = 1,    ///< 1..3: tangential spring of i against j [length]
+  ROLLING_SPRING = 4,       ///< 4..6: rolling spring, with RollingModel::sds only [length]
   SIZE_WITHOUT_ROLLING = 4,
   SIZE_WITH_ROLLING = 7
 };

@@ -45,7 +45,8 @@ inline bool mix(const Parameters &a, const Parameters &b, Parameters &mixed, std
   mixed.f0 = -(std::sqrt(-a.f0) * std::sqrt(-b.f0));
   mixed.mu = std::sqrt(a.mu) * std::sqrt(b.mu);
   mixed.kt_given = a.kt_given || b.kt_given;
-  mixed.kt = mixed.kt_given ? detail::series(tangential_stiffness(a), tangential_stiffness(b)) : 0.0;
+  mixed.kt = mixed.kt_given ? detail::series(tangential_stiffness(a), tangential_stiffness(b))
+                            : 0.0;
   mixed.damping = a.damping;
   mixed.restitution = std::sqrt(a.restitution * b.restitution);
   mixed.viscous_normal = detail::series(a.viscous_normal, b.viscous_normal);

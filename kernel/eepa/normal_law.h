@@ -117,8 +117,9 @@ struct PlateauLaw {
     const double plateau_overlap = plastic - plateau_stretch;
     const double parting_overlap = c.k1 / (c.k2 - c.k1) * peak;
     if (overlap <= plateau_overlap)
-      return s * (0.5 * c.k2 * plateau_stretch * plateau_stretch +
-                  c.k_adh * plastic * (plateau_overlap - overlap)) +
+      return s *
+          (0.5 * c.k2 * plateau_stretch * plateau_stretch +
+           c.k_adh * plastic * (plateau_overlap - overlap)) +
           scale.force() * c.f0 * plateau_overlap;
     const double on_k2_line = (overlap < parting_overlap ? overlap : parting_overlap);
     double energy = 0.5 * c.k2 * (on_k2_line - plastic) * (on_k2_line - plastic);

@@ -40,14 +40,14 @@ struct Parameters {
   double kt = 0.0;    ///< tangential stiffness, >= 0 [force/length]; 2/7 k1 if not given
 
   Damping damping = Damping::restitution;
-  double restitution = 1.0;          ///< e in [0, 1]; 1 is no damping, 0 is critical
-  double viscous_normal = 0.0;       ///< B_n, >= 0 [force time/length]
-  double viscous_tangential = 0.0;   ///< B_t, >= 0 [force time/length]
+  double restitution = 1.0;           ///< e in [0, 1]; 1 is no damping, 0 is critical
+  double viscous_normal = 0.0;        ///< B_n, >= 0 [force time/length]
+  double viscous_tangential = 0.0;    ///< B_t, >= 0 [force time/length]
 
   RollingModel rolling = RollingModel::none;
-  double mu_r = 0.0;             ///< rolling friction, >= 0
-  double kr = 0.0;               ///< sds: rolling stiffness, >= 0 [force/length]
-  double rolling_viscous = 0.0;  ///< sds: rolling dashpot, >= 0 [force time/length]
+  double mu_r = 0.0;               ///< rolling friction, >= 0
+  double kr = 0.0;                 ///< sds: rolling stiffness, >= 0 [force/length]
+  double rolling_viscous = 0.0;    ///< sds: rolling dashpot, >= 0 [force time/length]
 };
 
 /// The tangential stiffness: as given, or 2/7 k1 (article, section 2).

@@ -37,8 +37,8 @@ struct RollingConstant {
                                    double hysteretic, double root_mass_stiffness, double, Vec3 &)
   {
     const double radius = contact.effective_radius;
-    const Vec3 rolling = contact.angular_velocity -
-        contact.angular_velocity.dot(contact.normal) * contact.normal;
+    const Vec3 rolling =
+        contact.angular_velocity - contact.angular_velocity.dot(contact.normal) * contact.normal;
     const double limit = c.mu_r * hysteretic * radius;
     const double cap = 0.4 * radius * radius * root_mass_stiffness;
     const double rate_squared = rolling.squaredNorm();

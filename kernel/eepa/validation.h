@@ -81,7 +81,8 @@ inline Findings validate(const Parameters &p, const LawSettings &s)
     demand(errors, p.viscous_tangential >= 0.0, "viscous Bt", p.viscous_tangential, ">= 0");
   }
 
-  if (p.rolling != RollingModel::none) demand(errors, p.mu_r >= 0.0, "rolling mu_r", p.mu_r, ">= 0");
+  if (p.rolling != RollingModel::none)
+    demand(errors, p.mu_r >= 0.0, "rolling mu_r", p.mu_r, ">= 0");
   if (p.rolling == RollingModel::sds) {
     demand(errors, p.kr >= 0.0, "rolling sds kr", p.kr, ">= 0");
     demand(errors, p.rolling_viscous >= 0.0, "rolling sds gr", p.rolling_viscous, ">= 0");
@@ -89,14 +90,14 @@ inline Findings validate(const Parameters &p, const LawSettings &s)
 
   if (s.law == Law::plateau && errors.empty()) {
     if (p.k2 < 2.0 * p.k1) {
-      errors.push_back("k2 = " + text(p.k2) + " is not allowed with plateau: it must be >= 2 k1 = " +
-                       text(2.0 * p.k1) +
+      errors.push_back("k2 = " + text(p.k2) +
+                       " is not allowed with plateau: it must be >= 2 k1 = " + text(2.0 * p.k1) +
                        ", or a virgin contact never loads; use linear, which takes any k2 >= k1");
     } else if (p.k2 > 2.0 * p.k1) {
-      found.warnings.push_back(
-          "plateau with k2 = " + text(p.k2) + " > 2 k1 = " + text(2.0 * p.k1) +
-          ": unloading keeps to the loading branch down to an overlap of " +
-          text(p.k1 / (p.k2 - p.k1)) + " of the largest one, where the k2 line meets it");
+      found.warnings.push_back("plateau with k2 = " + text(p.k2) + " > 2 k1 = " + text(2.0 * p.k1) +
+                               ": unloading keeps to the loading branch down to an overlap of " +
+                               text(p.k1 / (p.k2 - p.k1)) +
+                               " of the largest one, where the k2 line meets it");
     }
   }
   return found;
