@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// build/lmp: LAMMPS with the styles of this package. LAMMPS itself is a shared library.
-
-#include "eepa_styles.h"
+// build/lmp: LAMMPS with the plugin beside this program loaded. LAMMPS loads it from
+// LAMMPS_PLUGIN_PATH whenever it starts anew, after the command `clear` too.
 
 #include "exceptions.h"
 #include "input.h"
@@ -11,16 +10,40 @@
 #include <mpi.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
+#include <string>
 
 using namespace LAMMPS_NS;
+
+namespace {
+
+/// Puts this program's folder in front of LAMMPS_PLUGIN_PATH.
+/// \return false, with a message, where the plugin is not there
+bool add_own_folder_to_plugin_path(const char *program)
+{
+  std::error_code failed;
+  std::filesystem::path self = std::filesystem::canonical("/proc/self/exe", failed);
+  if (failed) self = std::filesystem::absolute(program, failed);    // no procfs
+  const std::filesystem::path folder = self.parent_path();
+  if (!std::filesystem::exists(folder / "eepaplugin.so", failed)) {
+    std::fprintf(stderr, "ERROR: eepaplugin.so must lie beside %s\n", self.c_str());
+    return false;
+  }
+  std::string path = folder.string();
+  if (const char *given = std::getenv("LAMMPS_PLUGIN_PATH")) path += std::string(":") + given;
+  return setenv("LAMMPS_PLUGIN_PATH", path.c_str(), 1) == 0;
+}
+
+}    // namespace
 
 int main(int argc, char **argv)
 {
   MPI_Init(&argc, &argv);
+  if (!add_own_folder_to_plugin_path(argv[0])) MPI_Abort(MPI_COMM_WORLD, 1);
   try {
     LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
-    register_eepa_styles(&lammps);
     lammps.input->file();
   } catch (LAMMPSAbortException &abort) {    // one rank only failed
     MPI_Abort(abort.get_universe(), 1);

@@ -31,10 +31,10 @@ namespace {
 constexpr const char *style_name = "pair_style gran/eepa";
 
 constexpr const char *citation =
-    "pair style gran/eepa: doi:10.1007/s10035-014-0506-4, doi:10.1016/j.powtec.2015.06.025\n\n"
+    "pair style gran/eepa: doi:10.1007/s10035-014-0506-4, doi:10.1016/j.powtec.2015.05.051\n\n"
     "@Article{Thakur2014,\n"
     " author =  {S. C. Thakur and J. P. Morrissey and J. Sun and J. F. Chen and J. Y. Ooi},\n"
-    " title =   {Micromechanical analysis of cohesive granular materials using the discrete\n"
+    " title =   {Micromechanical analysis of cohesive granular materials using discrete\n"
     "            element method with an adhesive elasto-plastic contact model},\n"
     " journal = {Granular Matter},\n"
     " year =    2014,\n"
