@@ -18,7 +18,7 @@ target=$1 suite=$2 version=$3
 # an interrupted fetch then leaves no half tree under the final name.
 parent=$(dirname "$target")
 mkdir -p "$parent"
-work=$(mktemp -d "$parent/.fetch.XXXXXX")
+work=$(mktemp -d "$parent/.fetch.$(basename "$target").XXXXXX")
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
 mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/unpacked"
@@ -106,4 +106,5 @@ if [ -z "$tree" ]; then
     exit 1
 fi
 chmod 755 "$tree"
-mv "$tree" "$target"
+# -T: into its place or not at all, never into a folder that has come to be there meanwhile.
+mv -T "$tree" "$target"
