@@ -80,7 +80,8 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
     lost.rolling = -share * work;
     if constexpr (ContactLaw::Rolling::has_spring) {
       const double kr = scale.stiffness() * c.kr;
-      const Vec3 rolled = contact.effective_radius * contact.angular_velocity.cross(contact.normal);
+      const Vec3 rolled = contact.effective_radius *
+          (contact.angular_velocity - contact.angular_velocity.dot(contact.normal) * contact.normal);
       const Vec3 earlier = rotate_into_plane(before.rolling_spring, contact.normal);
       lost.rolling = detail::slip_loss(kr, earlier, after.rolling_spring, time_step * rolled) -
           share * (work + kr * time_step * after.rolling_spring.dot(rolled));

@@ -20,7 +20,7 @@ enum HistoryIndex : int {
 struct History {
   double max_overlap = 0.0;                 ///< [length], >= 0; 0 is a virgin contact
   Vec3 tangential_spring = Vec3::Zero();    ///< relative displacement of i against j [length]
-  Vec3 rolling_spring = Vec3::Zero();       ///< rolling displacement of i against j [length]
+  Vec3 rolling_spring = Vec3::Zero();       ///< rolling of i against j along its spin [length]
 };
 
 /// Reads a state from a driver's flat array.

@@ -50,8 +50,10 @@ struct RollingConstant {
 /// Spring-dashpot-slider on the rolling displacement (Luding 2008, section 2.4; as `rolling
 /// sds` of LAMMPS's pair_style granular).
 ///
-/// Pseudo-force f_r = -kr xi_r - gr v_r with v_r = R* (omega_i - omega_j) x u, bounded by
-/// mu_r |f_hys|; torque R* u x f_r.
+/// The spring is kept along the spin, theta += R* w dt with w the tangent-plane part of
+/// omega_i - omega_j: that changes its sign when i and j change places, as LAMMPS has it of all
+/// history; the customary rolling displacement along w x u does not.
+/// Pseudo-force g = -kr theta - gr R* w, bounded by mu_r |f_hys|; torque R* g.
 struct RollingSds {
   static constexpr RollingModel model = RollingModel::sds;
   static constexpr bool has_spring = true;
@@ -61,12 +63,13 @@ struct RollingSds {
                                    double time_step, Vec3 &spring)
   {
     const double radius = contact.effective_radius;
-    const Vec3 velocity = radius * contact.angular_velocity.cross(contact.normal);
+    const Vec3 velocity = radius *
+        (contact.angular_velocity - contact.angular_velocity.dot(contact.normal) * contact.normal);
     spring = rotate_into_plane(spring, contact.normal) + time_step * velocity;
     const SliderForce roll =
         slider_force(scale.stiffness() * c.kr, scale.inverse_size * c.inverse_kr,
                      scale.force() * c.rolling_viscous, c.mu_r * hysteretic, velocity, spring);
-    return radius * contact.normal.cross(roll.force);
+    return radius * roll.force;
   }
 };
 
