@@ -176,7 +176,8 @@ def rotated(xi, u):
 # drives the contact. The first replay of these tables found that the kernel leaves no spring there
 # instead, and says why (tangential_law.h): the dissipation of sliding is then never negative, as the
 # energy ledger asks, and the next force has the bound's length all the same. Adopted here after
-# that comparison: the only change to this file made with knowledge of the kernel.
+# that comparison; this and the direction of the rolling spring are the only changes made to this
+# file with knowledge of the kernel.
 SPRING_BEHIND_DASHPOT = False
 
 

@@ -1,0 +1,211 @@
+"""Runs the cases: so many at once, resuming where an earlier call was stopped."""
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Dict, List, Optional, Sequence
+
+from .cases import Case, folder_of
+from .logs import LogSummary, summarise_file, tail
+from .progress import Progress
+
+MARKER = "done.json"
+LOG = "log.lammps"
+SCREEN = "screen.txt"
+CURVE = "curve.csv"
+
+
+class RunFailed(RuntimeError):
+    """A LAMMPS run failed; the message names it and shows how its log ends."""
+
+
+@dataclass(frozen=True)
+class Launcher:
+    """How LAMMPS is started."""
+
+    lmp: Path
+    infile: Path
+    mpirun: str = "mpirun"
+    ranks: int = 1
+
+    def command(self, case: Case, folder: Path) -> List[str]:
+        return [self.mpirun, "-np", str(self.ranks), str(self.lmp), "-in", str(self.infile),
+                "-log", str(folder / LOG), "-var", "out", str(folder), *case.variables()]
+
+    def environment(self) -> Dict[str, str]:
+        """Open MPI refuses to start as root or more ranks than cores unless told so, and would
+        bind the ranks of every run to the same first cores."""
+        return {**os.environ,
+                "OMPI_ALLOW_RUN_AS_ROOT": "1",
+                "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                "OMPI_MCA_rmaps_base_oversubscribe": "1",
+                "OMPI_MCA_hwloc_base_binding_policy": "none",
+                "OMP_NUM_THREADS": "1"}
+
+    def fingerprint(self, case: Case) -> str:
+        return case.fingerprint([path.read_bytes() for path in self.inputs()], self.ranks)
+
+    def inputs(self) -> List[Path]:
+        """The files that decide on the result: build/lmp loads the plugin that lies beside it."""
+        plugin = self.lmp.with_name("eepaplugin.so")
+        return [self.infile, self.lmp] + ([plugin] if plugin.is_file() else [])
+
+
+@dataclass
+class _Active:
+    case: Case
+    fingerprint: str
+    process: subprocess.Popen
+    folder: Path
+    started: float
+
+
+def is_complete(folder: Path, fingerprint: str) -> bool:
+    """Whether the folder holds a finished run of just these parameters."""
+    try:
+        marker = json.loads((folder / MARKER).read_text(encoding="utf-8"))
+    except (FileNotFoundError, json.JSONDecodeError):
+        return False
+    return (isinstance(marker, dict) and marker.get("fingerprint") == fingerprint
+            and (folder / CURVE).is_file())
+
+
+def read_marker(folder: Path) -> dict:
+    """What a finished run noted: parameters, times and steps of each stage."""
+    return json.loads((folder / MARKER).read_text(encoding="utf-8"))
+
+
+class Runner:
+    """Runs cases and keeps each in a folder of its own.
+
+    A run works in NAME.partial, which becomes NAME when it is complete and NAME.failed when it
+    failed; so NAME never holds half a run, whatever ends this program.
+    """
+
+    def __init__(self, launcher: Launcher, out: Path, jobs: int, progress: Progress) -> None:
+        if jobs < 1:
+            raise ValueError(f"jobs is {jobs}, allowed is 1 or more")
+        self._launcher = launcher
+        self._out = out
+        self._jobs = jobs
+        self._progress = progress
+        self._active: List[_Active] = []
+
+    def run(self, cases: Sequence[Case], redo: bool = False, poll_seconds: float = 0.25) -> None:
+        """Runs what is not there yet.
+
+        :raise RunFailed: on the first run that fails; the others are stopped
+        """
+        waiting = []
+        for case in cases:
+            fingerprint = self._launcher.fingerprint(case)
+            if not redo and is_complete(folder_of(self._out, case), fingerprint):
+                self._progress.kept(case, self._summary(folder_of(self._out, case)))
+            else:
+                waiting.append((case, fingerprint))
+        try:
+            while waiting or self._active:
+                while waiting and len(self._active) < self._jobs:
+                    self._start(*waiting.pop(0))
+                time.sleep(poll_seconds)
+                for active in list(self._active):
+                    if active.process.poll() is not None:
+                        self._active.remove(active)
+                        self._finish(active)
+                self._progress.show({active.case: self._summary(active.folder)
+                                     for active in self._active})
+        finally:
+            self._stop_all()
+            self._progress.close()
+
+    def _summary(self, folder: Path) -> LogSummary:
+        return summarise_file(folder / LOG)
+
+    def _start(self, case: Case, fingerprint: str) -> None:
+        final = folder_of(self._out, case)
+        for stale in (final, _beside(final, "partial"), _beside(final, "failed")):
+            shutil.rmtree(stale, ignore_errors=True)
+        folder = _beside(final, "partial")
+        folder.mkdir(parents=True)
+        with (folder / SCREEN).open("wb") as screen:
+            # A session of its own: Ctrl-C in the terminal comes here and not to mpirun too.
+            process = subprocess.Popen(
+                self._launcher.command(case, folder), stdin=subprocess.DEVNULL, stdout=screen,
+                stderr=subprocess.STDOUT, env=self._launcher.environment(),
+                start_new_session=True)
+        self._active.append(_Active(case, fingerprint, process, folder, time.monotonic()))
+
+    def _finish(self, active: _Active) -> None:
+        final = folder_of(self._out, active.case)
+        summary = self._summary(active.folder)
+        if active.process.returncode != 0 or not summary.finished:
+            kept = _beside(final, "failed")
+            active.folder.rename(kept)
+            raise RunFailed(_failure(active, kept))
+        marker = {
+            "fingerprint": active.fingerprint,
+            "case": asdict(active.case),
+            "ranks": self._launcher.ranks,
+            "jobs": self._jobs,
+            "command": self._launcher.command(active.case, final),
+            "particles": summary.particles,
+            "stages": {name: asdict(stage) for name, stage in summary.stages.items()},
+            "wall_seconds": time.monotonic() - active.started,
+        }
+        (active.folder / MARKER).write_text(json.dumps(marker, indent=2) + "\n", encoding="utf-8")
+        active.folder.rename(final)
+        self._progress.done(active.case, summary)
+
+    def _stop_all(self) -> None:
+        for active in self._active:
+            _signal_group(active.process, signal.SIGTERM)
+        for active in self._active:
+            try:
+                active.process.wait(timeout=5.0)
+            except subprocess.TimeoutExpired:
+                _signal_group(active.process, signal.SIGKILL)
+                active.process.wait()
+            shutil.rmtree(active.folder, ignore_errors=True)
+        self._active.clear()
+
+
+def _beside(folder: Path, ending: str) -> Path:
+    return folder.with_name(f"{folder.name}.{ending}")
+
+
+def _signal_group(process: subprocess.Popen, number: int) -> None:
+    try:
+        os.killpg(process.pid, number)
+    except ProcessLookupError:
+        pass
+
+
+def _failure(active: _Active, folder: Path) -> str:
+    ending = tail(folder / SCREEN) or tail(folder / LOG) or ["(it wrote nothing)"]
+    command = " ".join(map(str, active.process.args)).replace(str(active.folder), str(folder))
+    return "\n".join([f"run {active.case.name} failed with status {active.process.returncode}; "
+                      f"its log is {folder / LOG} and ends", ""]
+                     + [f"    {line}" for line in ending] + ["", f"It was started by\n    {command}"])
+
+
+def find_lmp(given: Optional[Path], candidates: Sequence[Path]) -> Path:
+    """The LAMMPS to run, as an absolute path.
+
+    :raise FileNotFoundError: with every place where it was sought
+    """
+    if given is not None:
+        found = shutil.which(str(given))
+        if found is None:
+            raise FileNotFoundError(f"--lmp {given}: no such program")
+        return Path(found).resolve()
+    for candidate in candidates:
+        if os.access(candidate, os.X_OK):
+            return candidate.resolve()
+    raise FileNotFoundError("no LAMMPS at " + ", ".join(map(str, candidates))
+                            + ": build this project or name one with --lmp")

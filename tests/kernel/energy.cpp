@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: GPL-2.0-only
+// Stored elastic energy, the work over closed cycles, and where energy goes (contract, sections 1, 3).
+
+#include "support.h"
+
+namespace energy_test {
+using namespace eepa_test;
+
+std::vector<Material> materials()
+{
+  return {material(Law::plateau, 1e3, 2e3, 5e2),
+          material(Law::plateau, 1e3, 2e3, 5e2, -0.002),
+          material(Law::plateau, 1e3, 5e3, 2e3, -0.002),
+          material(Law::plateau, 1e3, 2e3, 0.0, -0.001),
+          material(Law::plateau, 1e3, 2e3, 5e3, -0.001),
+          material(Law::linear, 1e3, 2e3, 5e2),
+          material(Law::linear, 1e3, 1.2e3, 5e3, -0.002),
+          material(Law::linear, 1e3, 1e3, 5e2, -0.002),
+          material(Law::linear, 1e3, 9e3, 0.0),
+          material(Law::linear, 3e5, 7e5, 4e5, -0.001, 1.5),
+          material(Law::linear, 3e5, 7e5, 0.0, 0.0, 1.5),
+          material(Law::linear, 1e8, 1.3e8, 3e8, -0.001, 2.0)};
+}
+
+const double top = 2e-5;
+
+// Its slope is f_hys wherever the history is not changing, by central differences along the path
+TEST(Energy, SlopeIsTheForceAtFrozenHistory)
+{
+  for (const Material &m : materials()) {
+    SCOPED_TRACE(testing::Message()
+                 << "law " << int(m.law.law) << " k2 " << m.p.k2 << " n " << m.law.exponent);
+    NormalPath path(m);
+    path.to(top);
+    const double h = 1e-5 * top, peak = std::fabs(path.at(top).force) + std::fabs(m.p.f0);
+    for (double x = 0.005; x < 0.999; x += 0.01) {
+      const NormalForce f = path.at(x * top), lo = path.at(x * top - h), hi = path.at(x * top + h);
+      if (f.branch != lo.branch || f.branch != hi.branch) continue;    // a corner lies between
+      if (f.max_overlap != path.max_overlap) continue;    // the adhesive branch moves the history
+      const double slope = (path.energy(x * top + h) - path.energy(x * top - h)) / (2.0 * h);
+      ASSERT_NEAR(slope, f.force, 1e-7 * peak) << "x " << x;
+    }
+  }
+}
+
+// The integral of f_hys at frozen history is the difference of energies; corners and the step
+// of the plateau law included
+TEST(Energy, IsTheIntegralOfTheForceAtFrozenHistory)
+{
+  for (const Material &m : materials()) {
+    NormalPath path(m);
+    path.to(top);
+    const bool plateau = m.law.law == Law::plateau;
+    const double from = plateau ? 0.0
+                                : path.plastic_overlap() * (m.p.k_adh > 0.0 ? 0.999 : 1.000001);
+    const int steps = 100000;
+    double work = 0.0;
+    for (int k = 0; k < steps; k++)
+      work += path.at(from + (top - from) * (k + 0.5) / steps).force * (top - from) / steps;
+    const double scale = std::fabs(m.p.f0) * top + path.at(top).force * top;
+    const double lower = std::max(from, 1e-300);
+    EXPECT_NEAR(path.energy(top) - path.energy(lower), work, 1e-6 * scale)
+        << "k2 " << m.p.k2 << " n " << m.law.exponent;
+  }
+}
+
+TEST(Energy, ClosedFormsForExponentOne)
+{
+  // linear: k2 (delta - delta_p)^2/2 + f0 delta
+  NormalPath linear(material(Law::linear, 1e3, 4e3, 1e3, -0.002));
+  linear.to(top);
+  const double p = 0.75 * top;
+  for (double x : {1.0, 0.9, 0.75, 0.7})
+    EXPECT_NEAR(linear.energy(x * top), 0.5 * 4e3 * std::pow(x * top - p, 2) - 0.002 * x * top,
+                1e-20);
+  // plateau, k2 = 2 k1: at rest on the plateau
+  NormalPath plateau(material(Law::plateau, 1e3, 2e3, 5e2, -0.002));
+  plateau.to(top);
+  const double q = 0.5 * top, stretch = 0.25 * q, edge = q - stretch;
+  EXPECT_NEAR(plateau.energy(0.5 * edge),
+              0.5 * 2e3 * stretch * stretch + 5e2 * q * 0.5 * edge - 0.002 * edge, 1e-20);
+  EXPECT_NEAR(plateau.energy(top), 0.5 * 2e3 * q * q - 0.002 * top, 1e-20);
+}
+
+TEST(Energy, StressFreeContactStoresOnlyF0)
+{
+  for (const Material &m : materials()) {
+    if (m.p.k_adh == 0.0) continue;
+    NormalPath path(m);
+    path.to(top);
+    const double p = path.plastic_overlap();
+    EXPECT_NEAR(path.energy(p), m.p.f0 * p, 1e-22);
+  }
+}
+
+TEST(Energy, ContinuousThroughEveryTransition)
+{
+  for (const Material &m : materials()) {
+    NormalPath path(m);
+    double x = 1e-9, last = 0.0;
+    path.to(x);
+    last = path.energy(x);
+    const double steepest =
+        3.0 * (m.p.k1 + m.p.k2 + m.p.k_adh) * std::pow(1.2 * top, m.law.exponent) +
+        std::fabs(m.p.f0);
+    for (double target : {1.0, 0.5, 0.8, 0.05, 0.3, 1.2, 0.001}) {
+      const double from = x;
+      for (int k = 1; k <= 500; k++) {
+        const double next = from + (target * top - from) * k / 500;
+        path.to(next);
+        const double energy = path.energy(next);
+        ASSERT_LE(std::fabs(energy - last), steepest * std::fabs(next - x) + 1e-24);
+        last = energy;
+        x = next;
+      }
+    }
+  }
+}
+
+TEST(Energy, OfSpringsAndTotal)
+{
+  EXPECT_DOUBLE_EQ(spring_energy(3.0, Vec3(1.0, 2.0, -2.0)), 13.5);
+  Material m = material(Law::linear, 1e3, 2e3, 1e3);
+  m.p.kt_given = true;
+  m.p.kt = 400.0;
+  m.p.mu = 100.0;
+  m.p.rolling = RollingModel::sds;
+  m.p.mu_r = 100.0;
+  m.p.kr = 300.0;
+  scale_with_diameter(m, 3e-4);
+  Bodies b;
+  History history;
+  history.max_overlap = b.overlap;
+  history.tangential_spring = Vec3(0.0, 3e-7, 0.0);
+  history.rolling_spring = Vec3(0.0, 0.0, 2e-7);
+  const Outcome out = evaluate(m, b, 0.0, history);
+  EXPECT_NEAR(out.energy.tangential, 0.5 * 1200.0 * 9e-14, 1e-24);
+  EXPECT_NEAR(out.energy.rolling, 0.5 * 900.0 * 4e-14, 1e-24);
+  EXPECT_EQ(out.energy.total(), out.energy.normal + out.energy.tangential + out.energy.rolling);
+}
+
+// Work done on the contact along any path = what is stored + what loss() books, to quadrature;
+// and what is left at the opening is opening_loss().
+TEST(Energy, WorkIsStoredOrBookedAsLost)
+{
+  Random random(51);
+  for (const Material &m : materials()) {
+    SCOPED_TRACE(testing::Message() << "law " << int(m.law.law) << " k2 " << m.p.k2 << " k_adh "
+                                    << m.p.k_adh << " f0 " << m.p.f0 << " n " << m.law.exponent);
+    NormalPath path(m);
+    double x = 0.0, work = 0.0, lost = 0.0, force = path.at(1e-300).force;
+    double scale = 0.0;
+    for (int leg = 0; leg < 12; leg++) {
+      const double from = x, target = leg == 11 ? 1e-12 * top : top * random.uniform(0.02, 1.3);
+      const int steps = 4000;
+      for (int k = 1; k <= steps; k++) {
+        const double next = from + (target - from) * k / steps, before = path.max_overlap;
+        const double f = path.to(next).force;
+        work += 0.5 * (force + f) * (next - x);
+        lost += path.loss(before, path.max_overlap);
+        scale = std::max(scale, std::fabs(f) * top);
+        force = f;
+        x = next;
+      }
+      ASSERT_NEAR(work, path.energy(x) + lost, 2e-4 * scale) << "leg " << leg;
+    }
+    const double left = path.energy(x);
+    if (m.law.law == Law::plateau)
+      EXPECT_NEAR(path.opening_loss(), left, 1e-6 * scale);
+    else    // the adhesive branch has booked all: nothing is stored, nothing is left to lose
+      EXPECT_NEAR(path.opening_loss(), left, 1e-9 * scale);
+  }
+}
+
+// linear: a contact that opens in one long stride from any point loses what it stores there, and
+// the adhesive branch's work is booked by the same number as if it had walked it
+TEST(Energy, OpeningLossOfTheLinearLawIsTheWorkOfItsAdhesiveBranch)
+{
+  for (const Material &m : materials()) {
+    if (m.law.law != Law::linear || m.p.k2 == m.p.k1) continue;
+    const double n = m.law.exponent;
+    NormalPath path(m);
+    path.to(top);
+    const double whole = path.opening_loss();
+    const double edge = path.plastic_overlap() * std::pow(m.p.k2 / (m.p.k2 + m.p.k_adh), 1.0 / n);
+    // stored at the edge less f0's part, plus the work against adhesion from there to 0
+    const double expected =
+        path.energy(edge) - m.p.f0 * edge + m.p.k_adh * std::pow(edge, n + 1.0) / (n + 1.0);
+    EXPECT_NEAR(whole, expected, 1e-12 * (whole + m.p.k1 * std::pow(top, n + 1.0)));
+    const double before = path.max_overlap;
+    path.to(0.5 * edge);
+    EXPECT_NEAR(path.loss(before, path.max_overlap) + path.opening_loss(), whole, 1e-14 * whole);
+    EXPECT_GE(path.loss(before, path.max_overlap), 0.0);
+  }
+}
+
+// Dissipation over closed cycles is never negative, the plateau law with f0 excepted; there by at
+// most |f0| times the overlap at which the plateau begins, delta_p - k_adh delta_p/k2
+TEST(Energy, ClosedCyclesDissipate)
+{
+  Random random(52);
+  double worst = 0.0;
+  for (int k = 0; k < 150; k++) {
+    Material m = any_material(random);
+    const double size = random.decades(-4.0, -2.0), reach = 0.05 * size;
+    NormalPath path(m, size);
+    double x = 0.0, work = 0.0, force = path.at(1e-300).force, peak = 0.0;
+    for (int leg = 0; leg < 5; leg++) {
+      const double from = x, target = leg == 4 ? 0.0 : reach * random.uniform(0.0, 1.0);
+      const int steps = 2000;
+      for (int i = 1; i <= steps; i++) {
+        const double next = std::max(from + (target - from) * i / steps, 1e-300);
+        const double f = path.to(next).force;
+        work += 0.5 * (force + f) * (next - x);
+        peak = std::max(peak, std::fabs(f));
+        force = f;
+        x = next;
+      }
+    }
+    double created = 0.0;
+    if (m.law.law == Law::plateau) {
+      const Coefficients c = resolve(m.p, m.law);
+      const double f0 = contact_scale(c, size).force() * m.p.f0, p = path.plastic_overlap();
+      created = std::fabs(f0) * std::max(0.0, p - m.p.k_adh * p / m.p.k2);
+    }
+    ASSERT_GE(work, -created - 1e-3 * peak * reach) << "k2/k1 " << m.p.k2 / m.p.k1;
+    if (m.p.f0 != 0.0 && m.law.law == Law::plateau) worst = std::min(worst, work / created);
+  }
+  EXPECT_LT(worst, -0.1);    // it does happen
+  EXPECT_GE(worst, -1.01);
+}
+
+// the bound is met: k2 = 2 k1, k_adh = 0, so small that f0 outweighs the hysteresis
+TEST(Energy, PlateauWithPullOffCreatesAtMostTheWorkOfF0OverThePlateau)
+{
+  const double k1 = 1e3, k2 = 2e3, f0 = -1.0;
+  for (double k_adh : {0.0, 5e2, 3e3}) {
+    NormalPath path(material(Law::plateau, k1, k2, k_adh, f0));
+    path.to(top);
+    const double p = path.plastic_overlap();
+    const double edge = std::max(0.0, p * (1.0 - k_adh / k2));
+    // loading work, less what comes back: energy(top) on the way in is lost + stored
+    const double in = 0.5 * k1 * top * top + f0 * top;
+    const double out = path.energy(top) - path.energy(0.0);
+    EXPECT_NEAR(in - out, f0 * edge, k2 * top * top);
+    EXPECT_NEAR(path.opening_loss() + path.loss(0.0, top), in - out, 1e-15);
+    EXPECT_GE(in - out, f0 * edge - 1e-18);
+  }
+}
+
+// Tangential and rolling: a closed loop of motion at constant overlap dissipates
+TEST(Energy, ClosedLoopsOfShearAndRollingDissipate)
+{
+  Random random(53);
+  for (int k = 0; k < 100; k++) {
+    Material m = any_material(random);
+    if (m.p.rolling == RollingModel::none) m.p.rolling = RollingModel::sds;
+    Bodies b = any_bodies(random);
+    b.overlap = 0.02 * std::min(b.R_i, b.R_j);
+    const double period = 1e-3, amplitude = 0.3 * b.overlap;
+    const int steps = 1500;
+    History history;
+    double lost = 0.0, ledger = 0.0, scale = 0.0;
+    for (int i = 0; i < steps; i++) {
+      const double phase = 2.0 * 3.14159265358979323846 * (i + 0.5) / steps,
+                   rate = 2.0 * 3.14159 / period;
+      b.v_i = amplitude * rate * Vec3(0.0, -std::sin(phase), std::cos(2.0 * phase));
+      b.w_i = amplitude / b.R_i * rate * Vec3(0.0, std::cos(phase), -std::sin(2.0 * phase));
+      const Outcome out = evaluate(m, b, period / steps, history);
+      const Vec3 relative = b.w_i - b.w_j;
+      const double power = out.force.dot(b.v_i) + out.torque_i.dot(b.w_i);
+      lost -= power * period / steps;
+      scale += std::fabs(power) * period / steps;
+      ledger += out.lost.total() - out.lost.hysteresis;
+      ASSERT_GE(out.lost.normal_dashpot, 0.0);
+      ASSERT_GE(out.lost.tangential_dashpot, -1e-12 * scale);
+      ASSERT_GE(out.lost.sliding, -1e-12 * scale);
+      ASSERT_GE(out.lost.rolling, -1e-12 * scale);
+      ASSERT_TRUE(relative.allFinite());
+    }
+    const Outcome end = evaluate(m, b, 0.0, history);
+    ASSERT_GE(lost - end.energy.tangential - end.energy.rolling, -0.01 * scale);
+    // what the forces took is stored or booked
+    ASSERT_NEAR(lost, ledger + end.energy.tangential + end.energy.rolling, 0.02 * scale);
+  }
+}
+
+// The ledger of a head-on impact by velocity Verlet closes, and with order dt
+TEST(Energy, LedgerOfAnImpactCloses)
+{
+  std::vector<Material> all = materials();
+  for (Material &m : all) {
+    for (double e : {1.0, 0.4}) {
+      m.p.restitution = e;
+      double drift[2];
+      double scale = 0.0;
+      for (int pass = 0; pass < 2; pass++) {
+        Bodies b;
+        b.R_j = b.m_j = infinity;
+        const double mass = b.m_i;
+        double x = 0.0, v = 0.3, lost = 0.0;
+        const double dt = (pass ? 2.5e-9 : 1e-8);
+        scale = 0.5 * mass * v * v;
+        History history;
+        Outcome out{};
+        b.overlap = 1e-300;
+        double force = 0.0;
+        for (int k = 0; k < 2000000; k++) {
+          v -= 0.5 * dt * force / mass;
+          x += dt * v;
+          b.v_i = Vec3(-v, 0.0, 0.0);
+          b.overlap = x;
+          if (x <= 0.0) break;
+          out = evaluate(m, b, dt, history);
+          lost += out.lost.total();
+          force = out.normal_force;
+          v -= 0.5 * dt * force / mass;
+          if (k > 100 && std::fabs(v) < 1e-4) break;    // at rest or turning: enough
+        }
+        double stored = out.energy.total();
+        if (x <= 0.0) {
+          stored = 0.0;
+          lost += with_law(m.law, m.p.rolling, [&](auto law) {
+            return dissipation_of_opening<decltype(law)>(resolve(m.p, m.law), b.contact(), dt,
+                                                         history)
+                .total();
+          });
+        }
+        drift[pass] = std::fabs(0.5 * mass * v * v + stored + lost - scale) / scale;
+      }
+      SCOPED_TRACE(testing::Message() << "law " << int(m.law.law) << " k2 " << m.p.k2 << " f0 "
+                                      << m.p.f0 << " n " << m.law.exponent << " e " << e);
+      EXPECT_LT(drift[0], 2e-3);
+      EXPECT_LT(drift[1], std::max(0.5 * drift[0], 2e-4));
+    }
+  }
+}
+
+// what a contact still holds when it opens is booked
+TEST(Energy, OpeningBooksWhatTheSpringsHold)
+{
+  Material m = material(Law::plateau, 1e3, 2e3, 5e2, -1e-4);
+  m.p.rolling = RollingModel::sds;
+  m.p.mu_r = 0.1;
+  m.p.kr = 300.0;
+  m.p.restitution = 0.5;
+  Bodies b;
+  b.overlap = -1e-9;
+  b.v_i = Vec3(0.3, 0.0, 0.0);
+  History h;
+  h.max_overlap = top;
+  h.tangential_spring = Vec3(0.0, 2e-7, 0.0);
+  h.rolling_spring = Vec3(0.0, 0.0, 1e-7);
+  const Coefficients c = resolve(m.p, m.law);
+  const Dissipation lost =
+      dissipation_of_opening<ContactLaw<PlateauLaw, RollingSds>>(c, b.contact(), 1e-6, h);
+  NormalPath path(m);
+  path.to(top);
+  EXPECT_DOUBLE_EQ(lost.hysteresis, path.opening_loss());
+  EXPECT_DOUBLE_EQ(lost.sliding, 0.5 * c.kt * 4e-14);
+  EXPECT_DOUBLE_EQ(lost.rolling, 0.5 * 300.0 * 1e-14);
+  const double B = restitution_damping(0.5) * std::sqrt(effective_mass(b.m_i, b.m_j) * 1e3);
+  EXPECT_NEAR(lost.normal_dashpot, 0.25 * B * 0.09 * 1e-6, 1e-20);
+  EXPECT_EQ(lost.tangential_dashpot, 0.0);
+  Dissipation sum;
+  sum.add(lost, 0.5);
+  sum.add(lost, 0.5);
+  EXPECT_DOUBLE_EQ(sum.total(), lost.total());
+  EXPECT_DOUBLE_EQ(sum.total(),
+                   lost.hysteresis + lost.sliding + lost.rolling + lost.normal_dashpot);
+}
+}    // namespace energy_test

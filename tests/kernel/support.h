@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_TESTS_KERNEL_SUPPORT_H
+#define EEPA_TESTS_KERNEL_SUPPORT_H
+
+#include <eepa/eepa.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+// Each test file has a namespace of its own, so that all of them can also be compiled as one
+// (tests/mutation does).
+
+namespace eepa_test {
+
+using namespace eepa;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Settings and parameters of one kind of contact.
+struct Material {
+  LawSettings law;
+  Parameters p;
+};
+
+inline Material material(Law law, double k1, double k2, double k_adh, double f0 = 0.0,
+                         double exponent = 1.0)
+{
+  Material m;
+  m.law.law = law;
+  m.law.exponent = exponent;
+  m.p.k1 = k1;
+  m.p.k2 = k2;
+  m.p.k_adh = k_adh;
+  m.p.f0 = f0;
+  m.p.mu = 0.5;
+  if (exponent != 1.0) {
+    m.p.kt_given = true;
+    m.p.kt = 0.3 * k1 * std::pow(1e-5, exponent - 1.0);
+  }
+  return m;
+}
+
+inline void scale_with_diameter(Material &m, double reference)
+{
+  m.law.scaled = true;
+  m.law.reference_diameter = reference;
+}
+
+/// Two bodies in contact; R_j and m_j infinite for a wall.
+struct Bodies {
+  double R_i = 5e-4, R_j = 4e-4, m_i = 1e-6, m_j = 5e-7;
+  Vec3 u = Vec3::UnitX();
+  double overlap = 1e-5;
+  Vec3 v_i = Vec3::Zero(), v_j = Vec3::Zero(), w_i = Vec3::Zero(), w_j = Vec3::Zero();
+
+  bool wall() const { return std::isinf(R_j); }
+  double size() const { return wall() ? 2.0 * R_i : R_i + R_j; }
+  Contact contact() const
+  {
+    Contact c;
+    c.normal = u;
+    c.overlap = overlap;
+    c.size = size();
+    c.effective_mass = effective_mass(m_i, m_j);
+    c.effective_radius = effective_radius(R_i, R_j);
+    c.velocity = v_i - v_j;
+    c.spin = lever_arm(R_i, overlap) * w_i;
+    if (!wall()) c.spin += lever_arm(R_j, overlap) * w_j;
+    c.angular_velocity = w_i - w_j;
+    return c;
+  }
+  double arm_i() const { return lever_arm(R_i, overlap); }
+  double arm_j() const { return wall() ? 0.0 : lever_arm(R_j, overlap); }
+};
+
+/// What a driver makes of a Response.
+struct Outcome : Response {
+  Vec3 force, torque_i, torque_j;
+  StoredEnergy energy;
+  Dissipation lost;
+};
+
+inline Outcome evaluate(const Material &m, const Bodies &b, double time_step, History &history)
+{
+  return with_law(m.law, m.p.rolling, [&](auto law) {
+    using Law = decltype(law);
+    const Coefficients c = resolve(m.p, m.law);
+    const Contact contact = b.contact();
+    const History before = history;
+    Outcome out;
+    static_cast<Response &>(out) =
+        Law::evaluate(c, m.law.limit_damping, contact, time_step, history);
+    if (!Law::has_rolling) out.rolling_torque.setZero();
+    out.force = Law::force_on_i(out, contact);
+    const Vec3 moment = Law::tangential_moment(out, contact);
+    out.torque_i = -b.arm_i() * moment + out.rolling_torque;
+    out.torque_j = -b.arm_j() * moment - out.rolling_torque;
+    out.energy = Law::stored_energy(c, contact.size, contact.overlap, history);
+    if (Law::has_rolling)
+      out.lost = dissipation_of_step<Law>(c, contact, out, time_step, before.max_overlap == 0.0,
+                                          before, history);
+    else
+      out.lost = dissipation_of_step<ContactLaw<typename Law::Normal, RollingNone>>(
+          c, contact, out, time_step, before.max_overlap == 0.0, before, history);
+    return out;
+  });
+}
+
+inline Outcome evaluate(const Material &m, const Bodies &b, double time_step = 0.0)
+{
+  History history;
+  return evaluate(m, b, time_step, history);
+}
+
+/// The normal law alone, along a path of overlaps.
+class NormalPath {
+  template <class Function> auto with(Function &&function) const
+  {
+    return with_law(m_.law, RollingModel::none, [&](auto law) {
+      return function(typename decltype(law)::Normal{});
+    });
+  }
+
+ public:
+  explicit NormalPath(const Material &m, double size = 1.0) :
+      m_(m), c_(resolve(m.p, m.law)), scale_(contact_scale(c_, size))
+  {
+  }
+  NormalForce to(double overlap)
+  {
+    const NormalForce f = at(overlap);
+    max_overlap = f.max_overlap;
+    return f;
+  }
+  /// the same without remembering
+  NormalForce at(double overlap) const
+  {
+    return with([&](auto normal) {
+      return decltype(normal)::force(c_, scale_, overlap, max_overlap);
+    });
+  }
+  double energy(double overlap) const
+  {
+    return with([&](auto normal) {
+      return decltype(normal)::elastic_energy(c_, scale_, overlap, max_overlap);
+    });
+  }
+  double plastic_overlap() const
+  {
+    return with([&](auto normal) {
+      return decltype(normal)::plastic_overlap(c_, max_overlap);
+    });
+  }
+  double loss(double before, double after) const
+  {
+    return with([&](auto normal) {
+      return decltype(normal)::loss(c_, scale_, before, after);
+    });
+  }
+  double opening_loss() const
+  {
+    return with([&](auto normal) {
+      return decltype(normal)::opening_loss(c_, scale_, max_overlap);
+    });
+  }
+  double bound(const NormalForce &f) const { return c_.mu * f.coulomb_force + f.coulomb_offset; }
+
+  double max_overlap = 0.0;
+
+ private:
+  Material m_;
+  Coefficients c_;
+  Scale scale_;
+};
+
+/// Relative to the larger of the two, and to `scale` where both may vanish.
+inline double deviation(double a, double b, double scale = 0.0)
+{
+  const double size = std::max({std::fabs(a), std::fabs(b), scale});
+  return size > 0.0 ? std::fabs(a - b) / size : 0.0;
+}
+inline double deviation(const Vec3 &a, const Vec3 &b, double scale = 0.0)
+{
+  const double size = std::max({a.norm(), b.norm(), scale});
+  return size > 0.0 ? (a - b).norm() / size : 0.0;
+}
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double uniform(double lo, double hi)
+  {
+    // by hand: the standard's distributions differ between libraries
+    return lo + (hi - lo) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  double decades(double lo, double hi) { return std::pow(10.0, uniform(lo, hi)); }
+  bool chance(double p) { return uniform(0.0, 1.0) < p; }
+  Vec3 vector(double size)
+  {
+    Vec3 v;
+    for (int k = 0; k < 3; k++) v[k] = uniform(-size, size);
+    return v;
+  }
+  Vec3 direction()
+  {
+    while (true) {
+      const Vec3 v = vector(1.0);
+      const double length = v.norm();
+      if (length > 0.1 && length <= 1.0) return v / length;
+    }
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// A material anywhere in the parameter space (stiffness over 12 decades).
+inline Material any_material(Random &random)
+{
+  const bool plateau = random.chance(0.4);
+  const double k1 = random.decades(-3.0, 9.0);
+  const double ratio = random.chance(0.2) ? 1.0 : 1.0 + random.decades(-3.0, 2.0);
+  const double exponent = plateau || random.chance(0.5) ? 1.0 : random.uniform(1.0, 2.0);
+  Material m =
+      material(plateau ? Law::plateau : Law::linear, k1, k1 * (plateau ? 2.0 * ratio : ratio),
+               random.chance(0.2) ? 0.0 : k1 * random.decades(-2.0, 1.0), 0.0, exponent);
+  const double length = 1e-4;
+  if (random.chance(0.5)) m.p.f0 = -k1 * std::pow(length, exponent) * random.decades(-4.0, 0.0);
+  m.p.mu = random.chance(0.1) ? 0.0 : random.uniform(0.0, 1.5);
+  if (exponent != 1.0 || random.chance(0.3)) {
+    m.p.kt_given = true;
+    m.p.kt = k1 * std::pow(length, exponent - 1.0) * random.uniform(0.05, 1.0);
+  }
+  if (random.chance(0.6)) {
+    m.p.restitution = random.chance(0.1) ? 0.0
+        : random.chance(0.1)             ? 1.0
+                                         : random.uniform(0.0, 1.0);
+  } else {
+    m.p.damping = Damping::viscous;
+    m.p.viscous_normal = std::sqrt(k1) * random.decades(-6.0, -3.0);
+    m.p.viscous_tangential = std::sqrt(k1) * random.decades(-6.0, -3.0);
+  }
+  const double rolling = random.uniform(0.0, 3.0);
+  if (rolling < 2.0) {
+    m.p.rolling = rolling < 1.0 ? RollingModel::constant : RollingModel::sds;
+    m.p.mu_r = random.uniform(0.0, 0.5);
+    m.p.kr = k1 * std::pow(length, exponent - 1.0) * random.uniform(0.05, 1.0);
+    m.p.rolling_viscous = std::sqrt(k1) * random.decades(-7.0, -4.0);
+  }
+  m.law.limit_damping = random.chance(0.3);
+  if (random.chance(0.5)) scale_with_diameter(m, random.decades(-4.0, -2.0));
+  return m;
+}
+
+/// Two bodies with size ratios to 100, or a wall; velocities and spins at random.
+inline Bodies any_bodies(Random &random)
+{
+  Bodies b;
+  b.R_i = random.decades(-4.0, -2.5);
+  b.m_i = 8000.0 * std::pow(b.R_i, 3.0);
+  if (random.chance(0.2)) {
+    b.R_j = b.m_j = infinity;
+  } else {
+    b.R_j = b.R_i * random.decades(-2.0, 2.0);
+    b.m_j = 8000.0 * std::pow(b.R_j, 3.0);
+  }
+  return b;
+}
+
+inline void any_motion(Random &random, Bodies &b)
+{
+  b.u = (b.u + random.uniform(0.0, 0.5) * random.direction()).normalized();
+  b.v_i = random.vector(0.3);
+  b.v_j = random.vector(0.3);
+  b.w_i = random.vector(random.decades(-1.0, 2.5));
+  b.w_j = b.wall() ? Vec3(Vec3::Zero()) : random.vector(random.decades(-1.0, 2.5));
+}
+
+}    // namespace eepa_test
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// One program for every rank count: MPI starts once, rank 0 reports, and the other ranks speak
+// only of what failed on them.
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <cstdio>
+
+namespace {
+class FailuresOfOneRank : public testing::EmptyTestEventListener {
+ public:
+  explicit FailuresOfOneRank(int rank) : rank_(rank) {}
+  void OnTestPartResult(const testing::TestPartResult &result) override
+  {
+    if (!result.failed()) return;
+    const auto *test = testing::UnitTest::GetInstance()->current_test_info();
+    std::fprintf(stderr, "rank %d: %s.%s: %s:%d: %s\n", rank_, test ? test->test_suite_name() : "?",
+                 test ? test->name() : "?", result.file_name() ? result.file_name() : "?",
+                 result.line_number(), result.message());
+  }
+
+ private:
+  int rank_;
+};
+}    // namespace
+
+int main(int argc, char **argv)
+{
+  MPI_Init(&argc, &argv);
+  testing::InitGoogleTest(&argc, argv);
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  auto &listeners = testing::UnitTest::GetInstance()->listeners();
+  if (rank != 0) {
+    delete listeners.Release(listeners.default_result_printer());
+    listeners.Append(new FailuresOfOneRank(rank));
+  }
+  const int mine = RUN_ALL_TESTS();
+  int worst;
+  MPI_Allreduce(&mine, &worst, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Finalize();
+  return worst;
+}

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// Restart and data files: history to the bit, the same motion, settings that need no re-typing.
+
+#include "packing.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+using namespace eepa_test;
+
+namespace {
+
+constexpr const char *restarted_box =
+    "comm_modify vel yes\nneighbor 0.1 bin\nneigh_modify every 1 delay 0 check yes\n"
+    "thermo 1000000\n";
+constexpr const char *integrate = "fix integrate all nve/sphere\ntimestep 2e-4";
+
+/// Everything that single() shows of each contact, in the order of IDs.
+std::vector<std::vector<double>> histories(const Simulation &simulation)
+{
+  std::vector<std::vector<double>> all;
+  for (const auto &contact : simulation.contacts()) {
+    // which of the two is i may change; what does not is their largest overlap and energies
+    all.push_back({contact.overlap(), contact.max_overlap(), contact.plastic_overlap(),
+                   contact.p[11], contact.p[12], contact.p[13]});
+  }
+  return all;
+}
+
+class PackingRestart : public testing::TestWithParam<const char *> {};
+
+TEST_P(PackingRestart, GoesOnInMidUnloading)
+{
+  Packing packing;
+  packing.types = 2;
+  packing.polydisperse = true;
+  const ScratchFile file(".restart");
+  Simulation original, restarted;
+  original.open_box(packing.half(), 2, "p p p");
+  original.create(packing.spheres());
+  original(std::string("pair_style gran/eepa ") + GetParam() + "\n" + integrate);
+  original.watch_contacts();
+  original.run(200);
+  original("write_restart " + file.name());
+
+  restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
+  restarted.watch_contacts();
+  original.run(0);
+  restarted.run(0);
+  const auto a = histories(original), b = histories(restarted);
+  ASSERT_GT(a.size(), 400u);
+  ASSERT_EQ(a.size(), b.size());
+  int unloading = 0;
+  for (const auto &contact : original.contacts()) unloading += contact.branch() > 1.0;
+  EXPECT_GT(unloading, 50);
+  for (std::size_t k = 0; k < a.size(); k++) EXPECT_EQ(a[k], b[k]) << "contact " << k;
+
+  original.run(300);
+  restarted.run(300);
+  EXPECT_LT(difference(original.particles(), restarted.particles()), 1e-10);
+}
+INSTANTIATE_TEST_SUITE_P(
+    Laws, PackingRestart,
+    testing::Values("linear\npair_coeff 1 1 1e4 2e4 5e3 -1 0.3 restitution 0.8\n"
+                    "pair_coeff 2 2 2e4 3e4 5e3 -2 0.5 restitution 0.7",
+                    "plateau scale 0.5 limit_damping yes dtcheck off\n"
+                    "pair_coeff 1 1 1e4 2e4 5e3 -1 0.3 viscous 1 1\n"
+                    "pair_coeff 1 2 1e4 3e4 5e3 -1 0.3 viscous 2 1\n"
+                    "pair_coeff 2 2 1e4 4e4 5e3 -1 0.3 viscous 3 1",
+                    "linear exponent 1.5\n"
+                    "pair_coeff * * 1e5 2e5 5e4 -1 0.3 kt 3e3 rolling sds 1e3 1 0.1"));
+
+// A restart of two spheres in the middle of unloading: force and delta_max to the bit.
+TEST(Restart, KeepsTheHistoryToTheBit)
+{
+  const ScratchFile file(".restart");
+  Simulation original, restarted;
+  original.open_box(3.0);
+  original.create({{Vec3(0, 0, 0), Vec3(0.5, 0, 0)}, {Vec3(1.02, 0, 0), Vec3(-0.5, 0.1, 0)}});
+  original("pair_style gran/eepa linear\npair_coeff 1 1 1e4 4e4 5e3 0 0.5\n"
+           "fix integrate all nve/sphere\ntimestep 1e-4");
+  original.watch_contacts();
+  original.run(340);
+  original("run 0 post no\nwrite_restart " + file.name());
+  const PairContact before = original.contacts().at(0);
+  EXPECT_EQ(before.branch(), 2.0);
+  EXPECT_GT(before.tangential().norm(), 0.0);
+  restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
+  restarted.watch_contacts();
+  restarted.run(0);
+  const PairContact after = restarted.contacts().at(0);
+  EXPECT_EQ(before.max_overlap(), after.max_overlap());
+  EXPECT_EQ(before.normal_force, after.normal_force);
+  EXPECT_EQ(before.tangential(), after.tangential());
+}
+
+TEST(Restart, DoesNotTakeAnotherPairStyleBeforeForItsHistory)
+{
+  // in the run that writes, gran/eepa is the second style of its kind that was ever made
+  const ScratchFile file(".restart");
+  Simulation original, restarted;
+  original.open_box(3.0);
+  original.create({{Vec3(0, 0, 0), Vec3(0.5, 0, 0)}, {Vec3(1.02, 0, 0), Vec3(-0.5, 0, 0)}});
+  original("pair_style gran/eepa plateau\npair_style zero 1.0\npair_coeff * *\n"
+           "pair_style gran/eepa linear\npair_coeff 1 1 1e4 4e4 5e3 0 0.5\n"
+           "fix integrate all nve/sphere\ntimestep 1e-4");
+  original.run(340);
+  original("write_restart " + file.name() + "\nrun 0 post no");
+  restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
+  restarted.run(0);
+  EXPECT_GT(original.particle(2).f.norm(), 1.0);
+  EXPECT_EQ(original.particle(2).f, restarted.particle(2).f);
+}
+
+std::vector<Particle> end_of_wall_run(Simulation &simulation, int steps)
+{
+  simulation.run(steps);
+  return simulation.particles();
+}
+
+class WallRestart : public testing::TestWithParam<const char *> {};
+
+TEST_P(WallRestart, KeepsHistoryAndDisplacement)
+{
+  const std::string wall =
+      std::string("fix wall all wall/gran/eepa linear coeff 1e4 4e4 5e3 -1 0.5 restitution 0.8 ") +
+      GetParam();
+  const std::string gravity = "fix gravity all gravity 10 vector 0 0 -1\n";
+  const ScratchFile file(".restart");
+  Simulation original, restarted;
+  original.open_box(4.0);
+  std::vector<Sphere> spheres;
+  for (int k = 0; k < 5; k++)
+    spheres.push_back({Vec3(1.2 * k - 2.4, 0, 0.49), Vec3(0.5, 0.3, -0.2 * k), Vec3(1, 2, 3)});
+  original.create(spheres);
+  original("pair_style zero 1.0\npair_coeff * *\nfix integrate all nve/sphere\ntimestep 1e-4\n" +
+           gravity + wall);
+  original.run(150);
+  original("write_restart " + file.name());
+  const double position = original.fix("wall", 4), velocity = original.fix("wall", 5);
+
+  restarted("read_restart " + file.name() + "\n" + restarted_box +
+            "fix integrate all nve/sphere\ntimestep 1e-4\n" + gravity + wall);
+  original.run(0);
+  restarted.run(0);
+  EXPECT_EQ(restarted.fix("wall", 4), position);
+  EXPECT_EQ(restarted.fix("wall", 5), velocity);
+  EXPECT_GE(original.fix("wall", 6), 1.0);
+  for (int k = 1; k <= 12; k++) EXPECT_EQ(original.fix("wall", k), restarted.fix("wall", k)) << k;
+  EXPECT_LT(difference(end_of_wall_run(original, 300), end_of_wall_run(restarted, 300)), 1e-10);
+}
+INSTANTIATE_TEST_SUITE_P(Motions, WallRestart,
+                         testing::Values("wall zplane 0 NULL", "wall zplane 0 0.99",
+                                         "wall zplane 0 NULL velocity 0.3 0 0.2",
+                                         "wall zplane 0 NULL wiggle z 0.01 0.03",
+                                         "wall zplane 0 NULL shear x 1",
+                                         "rolling sds 1e3 1 0.1 wall zplane 0 NULL"));
+
+// What can not be restored is refused by name.
+class RestartMismatch : public testing::Test {
+ protected:
+  const ScratchFile file{".restart"};
+  void write(const std::string &rolling)
+  {
+    Simulation original;
+    original.open_box(4.0);
+    original.create({{Vec3(0, 0, 0.49)}, {Vec3(0.99, 0, 0.49)}});
+    original("pair_style gran/eepa linear\npair_coeff 1 1 1e4 4e4 5e3 -1 0.5" + rolling +
+             "\nfix integrate all nve/sphere\ntimestep 1e-4\n"
+             "fix wall all wall/gran/eepa linear coeff 1e4 4e4 5e3 -1 0.5" +
+             rolling + " wall zplane 0 NULL");
+    original.run(10);
+    original("write_restart " + file.name());
+  }
+};
+
+TEST_F(RestartMismatch, OfRollingInThePairStyleIsRefused)
+{
+  write("");
+  Simulation restarted;
+  EXPECT_TRUE(refuses(restarted,
+                      "read_restart " + file.name() + "\n" + restarted_box +
+                          "pair_coeff 1 1 1e4 4e4 5e3 -1 0.5 rolling sds 1e3 1 0.1\n" + integrate +
+                          "\nrun 0",
+                      "the restart file has 4 values a contact and the pair_coeffs need 7; rolling "
+                      "sds can not be switched on or off with a restart"));
+}
+
+TEST_F(RestartMismatch, OfRollingSwitchedOffIsRefused)
+{
+  write(" rolling sds 1e3 1 0.1");
+  Simulation restarted;
+  EXPECT_TRUE(refuses(restarted,
+                      "read_restart " + file.name() + "\n" + restarted_box +
+                          "pair_coeff 1 1 1e4 4e4 5e3 -1 0.5\n" + integrate + "\nrun 0",
+                      "has 7 values a contact and the pair_coeffs need 4"));
+}
+
+TEST_F(RestartMismatch, OfRollingAtAWallIsRefused)
+{
+  write("");
+  Simulation restarted;
+  EXPECT_TRUE(
+      refuses(restarted,
+              "read_restart " + file.name() + "\n" + restarted_box +
+                  "fix wall all wall/gran/eepa linear coeff 1e4 4e4 5e3 -1 0.5 rolling sds "
+                  "1e3 1 0.1 wall zplane 0 NULL",
+              "fix wall wall/gran/eepa: the restart file has 4 values a particle and the fix "
+              "needs 7"));
+}
+
+TEST_F(RestartMismatch, OfSurfacesIsRefused)
+{
+  write("");
+  Simulation restarted;
+  EXPECT_TRUE(
+      refuses(restarted,
+              "read_restart " + file.name() + "\n" + restarted_box +
+                  "fix wall all wall/gran/eepa linear coeff 1e4 4e4 5e3 -1 0.5 wall zplane 0 "
+                  "1",
+              "the restart file has 4 values a particle and the fix needs 8"));
+}
+
+TEST_F(RestartMismatch, OfTheFormatIsRefused)
+{
+  write("");
+  std::string bytes = file.text();
+  // the package's format number, 1.0, stands before the law, the exponent and scale: 1 1 1 0
+  const double settings[] = {1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0};
+  const std::string before(reinterpret_cast<const char *>(settings), sizeof(settings));
+  const auto at = bytes.find(before);
+  ASSERT_NE(at, std::string::npos);
+  const double other = 7.0;
+  bytes.replace(at, sizeof(double), reinterpret_cast<const char *>(&other), sizeof(double));
+  std::ofstream(file.name(), std::ios::binary) << bytes;
+  Simulation restarted;
+  EXPECT_TRUE(refuses(restarted, "read_restart " + file.name(),
+                      "the restart file has format 7 of gran/eepa, this version reads 1"));
+}
+
+// write_data keeps the coefficients, given and mixed; it has no histories, as LAMMPS's has none.
+TEST(DataFile, KeepsThePairCoefficients)
+{
+  for (const char *which : {"ii", "ij"}) {
+    Packing packing;
+    packing.types = 2;
+    packing.side = 4;
+    const ScratchFile file(".data");
+    Simulation original, reread;
+    const std::string cross =
+        which[1] == 'j' ? "\npair_coeff 1 2 1.1e4 2.5e4 0 -0.3 0.1 restitution 0.5" : "";
+    original.open_box(packing.half(), 2, "p p p");
+    original.create(packing.spheres());
+    original("pair_style gran/eepa linear scale 0.7\n"
+             "pair_coeff 1 1 1e4 2e4 5e3 -0.1 0.3 kt 3e3 restitution 0.8 rolling sds 1e3 0.1 0.2\n"
+             "pair_coeff 2 2 1e4 3e4 5e3 -0.2 0.3 restitution 0.3 rolling sds 1e3 0.1 0.2" +
+             cross + "\n" + integrate + "\nrun 0 post no\nwrite_data " + file.name() + " pair " +
+             which);
+    reread("units si\natom_style sphere\natom_modify map array\nboundary p p p\n"
+           "comm_modify vel yes\nneighbor 0.1 bin\nneigh_modify every 1 delay 0 check yes\n"
+           "pair_style gran/eepa linear scale 0.7\nread_data " +
+           file.name() + "\n" + integrate + "\nrun 0 post no");
+    EXPECT_NE(
+        file.text().find(which[1] == 'j' ? "PairIJ Coeffs # gran/eepa" : "Pair Coeffs # gran/eepa"),
+        std::string::npos);
+    // forces, not motion: a data file has 16 digits, and positions a rounding in the last
+    const auto a = original.particles(), b = reread.particles();
+    double largest = 0.0, worst = 0.0;
+    for (std::size_t k = 0; k < a.size(); k++) {
+      largest = std::max(largest, a[k].f.norm());
+      worst = std::max(worst, (a[k].f - b[k].f).norm());
+    }
+    EXPECT_GT(largest, 1.0);
+    EXPECT_LT(worst, 1e-9 * largest) << which;
+  }
+}
+
+}    // namespace

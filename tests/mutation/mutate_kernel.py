@@ -1,0 +1,365 @@
+#!/usr/bin/env python3
+"""Break a copy of the kernel in many small ways and show that the kernel tests notice each.
+
+    /usr/bin/python3 tests/mutation/mutate_kernel.py [--only WORD] [--keep] [--optimise LEVEL]
+
+Each mutant is an exact text replacement that must match once in its file. All tests of tests/kernel
+are compiled as one source against the broken copy, in a temporary folder, and run; a mutant is
+caught when a test fails. Exit status 1 when a mutant survives, does not apply or does not compile, 2
+when the untouched kernel fails. Tests named KnownFault* are left out.
+"""
+
+import argparse
+import glob
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
+
+# (file, what is broken, the exact text, its replacement)
+MUTANTS = [
+    # normal law: plateau
+    ("normal_law.h", "plateau: loading condition dropped",
+     "if (virgin || unloading >= loading) {", "if (virgin) {"),
+    ("normal_law.h", "plateau: plateau's sign", "result.force = -pull;", "result.force = pull;"),
+    ("normal_law.h", "plateau: f0 on the plateau", "result.force = -pull;",
+     "result.force = f0 - pull;"),
+    ("normal_law.h", "plateau: f0 missing when unloading",
+     "result.branch = Branch::unloading;\n      result.force = f0 + unloading;",
+     "result.branch = Branch::unloading;\n      result.force = unloading;"),
+    ("normal_law.h", "plateau: f0 missing when loading", "result.force = f0 + loading;",
+     "result.force = loading;"),
+    ("normal_law.h", "plateau: boundary of the plateau excluded",
+     "} else if (unloading <= -pull) {", "} else if (unloading < -pull) {"),
+    ("normal_law.h", "plateau: plateau depth from delta, not delta_p",
+     "const double pull = s * c.k_adh * plastic_overlap;",
+     "const double pull = s * c.k_adh * overlap;"),
+    ("normal_law.h", "plateau: bound without adhesion",
+     "result.coulomb_force = result.force + pull;", "result.coulomb_force = result.force;"),
+    ("normal_law.h", "plateau: sign of f0 in the bound",
+     "result.coulomb_offset = -f0;", "result.coulomb_offset = f0;"),
+    ("normal_law.h", "plateau: delta_max forgets",
+     "result.max_overlap = virgin ? overlap : max_overlap;", "result.max_overlap = overlap;"),
+    ("normal_law.h", "plateau: k2 not scaled",
+     "const double unloading = s * c.k2 * (overlap - plastic_overlap);",
+     "const double unloading = c.k2 * (overlap - plastic_overlap);"),
+    ("normal_law.h", "plateau energy: parting overlap",
+     "const double parting_overlap = c.k1 / (c.k2 - c.k1) * peak;",
+     "const double parting_overlap = peak;"),
+    ("normal_law.h", "plateau energy: sign of the plateau's work",
+     "c.k_adh * plastic * (plateau_overlap - overlap)",
+     "c.k_adh * plastic * (overlap - plateau_overlap)"),
+    ("normal_law.h", "plateau energy: f0 all along the plateau",
+     "scale.force() * c.f0 * plateau_overlap;", "scale.force() * c.f0 * overlap;"),
+    ("normal_law.h", "plateau energy: loading part's half",
+     "energy += 0.5 * c.k1 *", "energy += 1.0 * c.k1 *"),
+    ("normal_law.h", "plateau loss: not a difference of squares",
+     "c.loading_loss * (after - before) * (after + before);",
+     "c.loading_loss * (after - before) * (after - before);"),
+    # normal law: linear (for plateau the comparison is redundant: k2 >= 2 k1 makes the same of it)
+    ("normal_law.h", "linear: virgin compares strictly",
+     "const bool virgin = overlap >= max_overlap;\n    const double s = scale.stiffness();\n"
+     "    const double f0 = scale.force() * c.f0;\n    const double power",
+     "const bool virgin = overlap > max_overlap;\n    const double s = scale.stiffness();\n"
+     "    const double f0 = scale.force() * c.f0;\n    const double power"),
+    ("normal_law.h", "linear: adhesive branch does not lower delta_p",
+     "result.max_overlap = c.adhesive_memory * overlap;", "result.max_overlap = max_overlap;"),
+    ("normal_law.h", "linear: adhesive sign", "spring = -pull;", "spring = pull;"),
+    ("normal_law.h", "linear: f0 dropped", "result.force = f0 + spring;", "result.force = spring;"),
+    ("normal_law.h", "linear: f0 in the bound", "result.coulomb_force = spring + pull;",
+     "result.coulomb_force = result.force + pull;"),
+    ("normal_law.h", "linear: bound without adhesion", "result.coulomb_force = spring + pull;",
+     "result.coulomb_force = spring;"),
+    ("normal_law.h", "linear: loading condition", "if (unloading < loading) {", "if (true) {"),
+    ("normal_law.h", "linear: adhesive condition", "if (unloading <= -pull) {",
+     "if (unloading <= 0.0) {"),
+    ("normal_law.h", "linear: remembers the present overlap when unloading",
+     "result.max_overlap = max_overlap;\n      if (unloading < loading)",
+     "result.max_overlap = overlap;\n      if (unloading < loading)"),
+    ("normal_law.h", "linear energy: half", "energy = 0.5 * (overlap - plastic)",
+     "energy = (overlap - plastic)"),
+    ("normal_law.h", "linear energy: exponent's denominator", "/ (c.exponent + 1.0) -",
+     "/ (c.exponent) -"),
+    ("normal_law.h", "linear energy: f0's part",
+     "return scale.stiffness() * c.k2 * energy + scale.force() * c.f0 * overlap;",
+     "return scale.stiffness() * c.k2 * energy;"),
+    ("normal_law.h", "linear opening loss: onset", "const double onset = max_overlap / c.adhesive_memory;",
+     "const double onset = max_overlap;"),
+    ("normal_law.h", "exponent: n - 1 becomes n",
+     "return overlap * std::pow(overlap * scale.inverse_size, c.exponent - 1.0);",
+     "return overlap * std::pow(overlap * scale.inverse_size, c.exponent);"),
+    ("normal_law.h", "exponent: power not scaled",
+     "return overlap * std::pow(overlap * scale.inverse_size, c.exponent - 1.0);",
+     "return overlap * std::pow(overlap, c.exponent - 1.0);"),
+    ("normal_law.h", "exponent: slope without n",
+     "return c.exponent * std::pow(overlap * scale.inverse_size, c.exponent - 1.0);",
+     "return std::pow(overlap * scale.inverse_size, c.exponent - 1.0);"),
+    ("normal_law.h", "exponent: root of the plastic fraction",
+     "return overlap * std::pow(fraction, 1.0 / c.exponent);", "return overlap * fraction;"),
+    # coefficients
+    ("coefficients.h", "plateau: delta_p as linear's",
+     "c.plastic_fraction = p.k1 / p.k2;", "c.plastic_fraction = 1.0 - p.k1 / p.k2;"),
+    ("coefficients.h", "linear: delta_p as plateau's",
+     "c.plastic_fraction = (p.k2 - p.k1) / p.k2;", "c.plastic_fraction = p.k1 / p.k2;"),
+    ("coefficients.h", "linear: adhesive memory without k_adh",
+     "std::pow((p.k2 + p.k_adh) / (p.k2 - p.k1), 1.0 / s.exponent)",
+     "std::pow(p.k2 / (p.k2 - p.k1), 1.0 / s.exponent)"),
+    ("coefficients.h", "linear: adhesive memory without the root",
+     "std::pow((p.k2 + p.k_adh) / (p.k2 - p.k1), 1.0 / s.exponent)",
+     "(p.k2 + p.k_adh) / (p.k2 - p.k1)"),
+    ("coefficients.h", "restitution: 1 + becomes 1 -",
+     "return 2.0 / std::sqrt(1.0 + ratio * ratio);",
+     "return 2.0 / std::sqrt(std::fabs(1.0 - ratio * ratio));"),
+    ("coefficients.h", "restitution: 4 becomes 1", "return 2.0 / std::sqrt(1.0 + ratio * ratio);",
+     "return 1.0 / std::sqrt(1.0 + ratio * ratio);"),
+    ("coefficients.h", "restitution: e = 0 undamped", "if (restitution <= 0.0) return 2.0;",
+     "if (restitution <= 0.0) return 0.0;"),
+    ("coefficients.h", "tangential dashpot: kt/k1 without root",
+     "c.tangential_ratio = std::sqrt(c.kt / c.k1);", "c.tangential_ratio = c.kt / c.k1;"),
+    ("coefficients.h", "scaling: force goes with d",
+     "return size * size;", "return size;"),
+    ("coefficients.h", "scaling: inverse", "scale.size = size * c.inverse_reference_diameter;",
+     "scale.size = 1.0 / (size * c.inverse_reference_diameter);"),
+    ("coefficients.h", "plateau loading loss", "c.loading_loss = 0.5 * p.k1 *",
+     "c.loading_loss = p.k1 *"),
+    ("coefficients.h", "linear adhesive loss: sign", "c.adhesive_loss = p.k_adh / (n + 1.0) +",
+     "c.adhesive_loss = p.k_adh / (n + 1.0) -"),
+    ("coefficients.h", "viscous B_t taken from B_n", "c.viscous_tangential = p.viscous_tangential;",
+     "c.viscous_tangential = p.viscous_normal;"),
+    # the composition
+    ("contact_law.h", "normal dashpot's sign",
+     "response.normal_force = normal.force - viscous_normal * normal_velocity;",
+     "response.normal_force = normal.force + viscous_normal * normal_velocity;"),
+    ("contact_law.h", "limit_damping: least 0 always",
+     "const double least = normal.force < 0.0 ? normal.force : 0.0;", "const double least = 0.0;"),
+    ("contact_law.h", "limit_damping ignored", "if (limit_damping) {", "if (false) {"),
+    ("contact_law.h", "bound: f0 inside of mu",
+     "const double bound = c.mu * normal.coulomb_force + normal.coulomb_offset;",
+     "const double bound = c.mu * (normal.coulomb_force + normal.coulomb_offset);"),
+    ("contact_law.h", "bound not clamped", "response.friction_bound = bound > 0.0 ? bound : 0.0;",
+     "response.friction_bound = std::fabs(bound);"),
+    ("contact_law.h", "spring not rotated",
+     "spring = rotate_into_plane(spring, contact.normal) + time_step * velocity;",
+     "spring = spring + time_step * velocity;"),
+    ("contact_law.h", "spring not wound",
+     "spring = rotate_into_plane(spring, contact.normal) + time_step * velocity;",
+     "spring = rotate_into_plane(spring, contact.normal);"),
+    ("contact_law.h", "spring wound, then rotated",
+     "spring = rotate_into_plane(spring, contact.normal) + time_step * velocity;",
+     "spring = rotate_into_plane(spring + time_step * velocity, contact.normal);"),
+    ("contact_law.h", "delta_max not remembered", "history.max_overlap = normal.max_overlap;",
+     "history.max_overlap = history.max_overlap;"),
+    ("contact_law.h", "given dashpots scale with d",
+     "const double viscous_normal = normal_part + scale.force() * c.viscous_normal;",
+     "const double viscous_normal = normal_part + scale.stiffness() * c.viscous_normal;"),
+    ("contact_law.h", "kt not scaled", "slider_force(scale.stiffness() * c.kt,",
+     "slider_force(c.kt,"),
+    ("contact_law.h", "dashpot of n != 1 from k1 alone",
+     "stiffness *= NormalLaw::Exponent::slope(contact.overlap, c, scale);", "stiffness *= 1.0;"),
+    # tangential and rolling
+    ("tangential_law.h", "spring reset forgets the dashpot",
+     "spring = inverse_stiffness * (dashpot - result.force);",
+     "spring = -inverse_stiffness * result.force;"),
+    ("tangential_law.h", "spring's sign", "result.force = dashpot - stiffness * spring;",
+     "result.force = dashpot + stiffness * spring;"),
+    ("tangential_law.h", "spring wound up behind the dashpot",
+     "if (dashpot.squaredNorm() < bound * bound)", "if (bound > 0.0)"),
+    ("tangential_law.h", "scaled back by the square",
+     "result.force *= bound / std::sqrt(length_squared);",
+     "result.force *= bound * bound / length_squared;"),
+    ("tangential_law.h", "spring energy's half", "return 0.5 * stiffness * spring.squaredNorm();",
+     "return stiffness * spring.squaredNorm();"),
+    ("vector.h", "rotation loses length",
+     "return std::sqrt(length_squared / projected_squared) * projected;", "return projected;"),
+    ("contact.h", "lever arm R", "return radius - 0.5 * overlap;", "return radius;"),
+    ("contact.h", "spin's sign", "- c.spin.cross(c.normal);", "+ c.spin.cross(c.normal);"),
+    ("contact.h", "normal part of the velocity kept",
+     "return c.velocity - normal_velocity * c.normal - c.spin", "return c.velocity - c.spin"),
+    ("contact.h", "reduced mass halved", "return mass_i * mass_j / sum;",
+     "return 0.5 * mass_i * mass_j / sum;"),
+    ("rolling_law.h", "constant: cap's factor", "const double cap = 0.4 * radius",
+     "const double cap = 0.5 * radius"),
+    ("rolling_law.h", "constant: twisting not removed",
+     "const Vec3 rolling = contact.angular_velocity -\n"
+     "        contact.angular_velocity.dot(contact.normal) * contact.normal;",
+     "const Vec3 rolling = contact.angular_velocity;"),
+    ("rolling_law.h", "constant: drives",
+     "return -(limit / std::sqrt(rate_squared)) * rolling;",
+     "return (limit / std::sqrt(rate_squared)) * rolling;"),
+    ("rolling_law.h", "sds: given dashpot scales with d", "scale.force() * c.rolling_viscous",
+     "scale.stiffness() * c.rolling_viscous"),
+    ("rolling_law.h", "sds: bound without mu_r", "c.mu_r * hysteretic, velocity, spring",
+     "hysteretic, velocity, spring"),
+    ("history.h", "swap turns delta_max",
+     "history.max_overlap = std::fabs(values[MAX_OVERLAP]);",
+     "history.max_overlap = values[MAX_OVERLAP];"),
+    # time step, mixing, validation
+    ("time_step.h", "time step's factor", "return 0.2 * std::sqrt(mass / stiffness);",
+     "return 0.25 * std::sqrt(mass / stiffness);"),
+    ("time_step.h", "k_adh left out", "(c.k2 > c.k_adh ? c.k2 : c.k_adh) * slope",
+     "c.k2 * slope"),
+    ("time_step.h", "not scaled", "return scale.stiffness() * (normal > c.kt ? normal : c.kt);",
+     "return (normal > c.kt ? normal : c.kt);"),
+    ("mixing.h", "series of half", "2.0 / (1.0 / a + 1.0 / b)", "1.0 / (1.0 / a + 1.0 / b)"),
+    ("mixing.h", "f0's sign", "mixed.f0 = -(", "mixed.f0 = ("),
+    ("mixing.h", "given kt lost", "mixed.kt_given = a.kt_given || b.kt_given;",
+     "mixed.kt_given = a.kt_given && b.kt_given;"),
+    ("mixing.h", "one restitution alone", "std::sqrt(a.restitution * b.restitution)",
+     "a.restitution"),
+    ("validation.h", "k2 = k1 refused", "demand(errors, p.k2 >= p.k1,",
+     "demand(errors, p.k2 > p.k1,"),
+    ("validation.h", "NaN accepted", "if (!std::isfinite(value))", "if (std::isinf(value))"),
+    ("validation.h", "plateau takes k2 < 2 k1", "if (p.k2 < 2.0 * p.k1) {",
+     "if (p.k2 < 1.0 * p.k1) {"),
+    ("validation.h", "warning for k2 = 2 k1", "} else if (p.k2 > 2.0 * p.k1) {",
+     "} else if (p.k2 >= 2.0 * p.k1) {"),
+    # dissipation
+    ("dissipation.h", "dashpot's sign",
+     "lost.normal_dashpot = -share * time_step * normal_velocity *",
+     "lost.normal_dashpot = share * time_step * normal_velocity *"),
+    ("dissipation.h", "slip loss without the trapezoid", "(before + after).dot(",
+     "(after + after).dot("),
+    ("dissipation.h", "opening forgets the tangential spring",
+     "lost.sliding = spring_energy(scale.stiffness() * c.kt, last.tangential_spring);",
+     "lost.sliding = 0.0;"),
+]
+
+
+# The tests that most likely notice a mutant of a file are compiled and run first, all of them only
+# when those do not.
+FIRST = {
+    "normal_law.h": ("normal_plateau", "normal_linear", "energy"),
+    "coefficients.h": ("normal_linear", "damping", "oracle"),
+    "contact_law.h": ("damping", "oracle", "friction"),
+    "tangential_law.h": ("friction",), "vector.h": ("friction",), "contact.h": ("friction",),
+    "rolling_law.h": ("rolling",), "history.h": ("symmetry",), "time_step.h": ("time_step",),
+    "mixing.h": ("mixing",), "validation.h": ("validation",), "dissipation.h": ("energy",),
+}
+
+
+def run(command, **keywords):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          **keywords)
+
+
+def eigen_include():
+    found = run(["pkg-config", "--cflags-only-I", "eigen3"])
+    flags = found.stdout.split() if found.returncode == 0 else ["-I/usr/include/eigen3"]
+    return [part for flag in flags for part in ("-isystem", flag[2:])]
+
+
+class Bench:
+    def __init__(self, folder, optimise):
+        self.folder = folder
+        self.kernel = os.path.join(folder, "kernel")
+        self.flags = ["-std=c++17", f"-O{optimise}", "-w", "-I" + os.path.join(ROOT, "tests/kernel"),
+                      *eigen_include()]
+        self.compiler = os.environ.get("CXX", "g++")
+        self.environment = {**os.environ, "EEPA_SOURCE_DIR": ROOT}
+        # What never changes is parsed once.
+        header = os.path.join(folder, "common.h")
+        with open(header, "w") as out:
+            for name in ("gtest/gtest.h", "Eigen/Core", "Eigen/Geometry", "random", "fstream",
+                         "sstream", "map", "vector", "string", "limits", "algorithm", "cmath"):
+                out.write(f"#include <{name}>\n")
+        self.check(run([self.compiler, *self.flags, "-x", "c++-header", header]))
+        self.sources = sorted(glob.glob(os.path.join(ROOT, "tests/kernel/*.cpp")))
+        self.program = os.path.join(folder, "tests")
+
+    @staticmethod
+    def check(result):
+        if result.returncode:
+            sys.exit("mutate_kernel: the untouched kernel does not compile:\n" + result.stdout)
+
+    def fresh_kernel(self):
+        shutil.rmtree(self.kernel, ignore_errors=True)
+        shutil.copytree(os.path.join(ROOT, "kernel"), self.kernel)
+
+    def compile(self, names=None):
+        """One program of the test files with these names, or of all."""
+        unity = os.path.join(self.folder, "unity.cpp")
+        with open(unity, "w") as out:
+            out.write('#include "common.h"\n')
+            for source in self.sources:
+                if names is None or os.path.basename(source)[:-4] in names:
+                    out.write(f'#include "{source}"\n')
+        return run([self.compiler, *self.flags, "-I" + self.kernel, "-I" + self.folder, unity,
+                    "-lgtest", "-lgtest_main", "-lpthread", "-o", self.program])
+
+    def tests(self):
+        try:
+            return run([self.program, "--gtest_filter=-*KnownFault*", "--gtest_fail_fast",
+                        "--gtest_brief=1"], env=self.environment, timeout=300)
+        except subprocess.TimeoutExpired as late:
+            return subprocess.CompletedProcess(late.cmd, 124, "[  FAILED  ] (does not end)")
+
+
+def first_failure(text):
+    for line in text.splitlines():
+        if line.startswith("[  FAILED  ]"):
+            return line[12:].split("(")[0].split(",")[0].strip() or "does not end"
+    return "crash"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--only", default="", help="mutants whose description has this word")
+    parser.add_argument("--keep", action="store_true", help="keep the temporary folder")
+    parser.add_argument("--optimise", default="1", help="compiler's optimisation level")
+    options = parser.parse_args()
+
+    folder = tempfile.mkdtemp(prefix="eepa_mutation_")
+    bad = []
+    start = time.time()
+    try:
+        bench = Bench(folder, options.optimise)
+        bench.fresh_kernel()
+        Bench.check(bench.compile())
+        untouched = bench.tests()
+        if untouched.returncode:
+            print("mutate_kernel: the untouched kernel fails its tests:\n" + untouched.stdout)
+            return 2
+        chosen = [m for m in MUTANTS if options.only in m[0] + " " + m[1]]
+        width = max(len(m[1]) for m in chosen)
+        for count, (name, what, old, new) in enumerate(chosen, 1):
+            bench.fresh_kernel()
+            path = os.path.join(bench.kernel, "eepa", name)
+            with open(path) as source:
+                text = source.read()
+            if text.count(old) != 1:
+                verdict = f"ERROR: matches {text.count(old)} times"
+                bad.append(what)
+            else:
+                with open(path, "w") as target:
+                    target.write(text.replace(old, new))
+                verdict = "SURVIVED"
+                for names in (FIRST.get(name, ()), None):
+                    built = bench.compile(names)
+                    if built.returncode:
+                        verdict = "ERROR: does not compile"
+                        break
+                    result = bench.tests()
+                    if result.returncode:
+                        verdict = "caught by " + first_failure(result.stdout)
+                        break
+                if not verdict.startswith("caught"):
+                    bad.append(what)
+            print(f"{count:3d}/{len(chosen)}  {name:18s} {what:{width}s}  {verdict}", flush=True)
+    finally:
+        if options.keep:
+            print("kept", folder)
+        else:
+            shutil.rmtree(folder)
+    print(f"{len(chosen)} mutants, {len(chosen) - len(bad)} caught, {len(bad)} not, "
+          f"{time.time() - start:.0f} s")
+    for what in bad:
+        print("not caught:", what)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
