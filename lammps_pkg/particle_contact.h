@@ -38,7 +38,7 @@ inline LeverArms gather_contact(const ParticleArrays &p, int i, int j, const eep
   const double distance = std::sqrt(distance_squared);
   contact.size = radius_i + radius_j;
   contact.overlap = contact.size - distance;
-  contact.normal = offset / distance;
+  contact.normal = (1.0 / distance) * offset;    // one division, not three
   contact.effective_mass = eepa::effective_mass(p.mass[i], p.mass[j]);
   contact.velocity = p.at(p.v, i) - p.at(p.v, j);
   const LeverArms arms = {eepa::lever_arm(radius_i, contact.overlap),

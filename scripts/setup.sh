@@ -2,7 +2,7 @@
 # From a bare machine to a built project: installs what is missing (Debian, Ubuntu),
 # obtains and builds LAMMPS once, configures and builds. Safe to run again.
 #
-#   scripts/setup.sh [more arguments for cmake, such as -D EEPA_NATIVE=ON]
+#   scripts/setup.sh [more arguments for cmake, such as -D EEPA_ARCH=native]
 #
 # BUILD_DIR names another build folder; EEPA_CACHE another place for LAMMPS.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-only
 """Runs in.contact_cycle for both laws and draws force over overlap: what LAMMPS wrote as points,
 the formulas as lines. See README.md."""
 from __future__ import annotations
@@ -124,7 +125,7 @@ def label_branches(axis, law: str) -> None:
         mark(axis, "pressed again from\nthe adhesive branch:\nback along k2", (7.0, -25.0),
              (24.5, -45.0), COLOURS[UNLOADING])
     else:
-        mark(axis, "adhesive plateau, −k_adh δp", (3.0, -75.0), (4.5, -105.0), COLOURS[ADHESIVE])
+        mark(axis, "adhesive plateau, −k_adh δp", (3.0, -75.0), (6.0, -106.0), COLOURS[ADHESIVE])
         step = K1 / K2 * 1.5 * UNIT * (1.0 - K_ADH / K2) * 1e6
         axis.annotate("", xy=(step + 0.5, -75.0), xytext=(step + 0.5, -95.0),
                       arrowprops={"arrowstyle": "<->", "color": "0.2", "linewidth": 0.8})

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-only
 """Compresses the same packing with particles of several diameters, with and without the scaling
 of the contact law, and compares the curves: a table and a figure. See README.md."""
 from __future__ import annotations
 
 import argparse
 import os
-import signal
 import sys
 from pathlib import Path
 from typing import List, Optional, Sequence
@@ -103,18 +103,20 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
 
 def collect(arguments: argparse.Namespace) -> List[report.Group]:
     """The curves and timings of every diameter and mode."""
-    runs: dict = {}
+    groups = []
     for mode in arguments.modes:
         for diameter, count in zip(arguments.diameters, arguments.seeds):
             scaled = is_scaled(diameter, mode, arguments.dref)
-            members = []
+            group = report.Group(diameter, mode, [], [],
+                                 Case(diameter, scaled, arguments.law, 1, arguments.dref)
+                                 .inertial_number(arguments.preload))
             for seed in range(1, count + 1):
                 case = Case(diameter, scaled, arguments.law, seed, arguments.dref)
                 folder = folder_of(arguments.out, case)
-                members.append((load_curve(folder / CURVE, arguments.preload),
-                                report.Timing.from_marker(read_marker(folder))))
-            runs[diameter, mode] = members
-    return report.group_curves(runs)
+                group.curves.append(load_curve(folder / CURVE, arguments.preload))
+                group.timings.append(report.Timing.from_marker(read_marker(folder)))
+            groups.append(group)
+    return groups
 
 
 def write_report(arguments: argparse.Namespace) -> str:
@@ -129,8 +131,6 @@ def write_report(arguments: argparse.Namespace) -> str:
 
 def main(words: Optional[Sequence[str]] = None) -> int:
     arguments = parse_arguments(words)
-    # A kill ends the runs like Ctrl-C does.
-    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     try:
         lmp = find_lmp(arguments.lmp, [build_folder() / "lmp"])
         launcher = Launcher(lmp, HERE / "in.oedometer", arguments.mpirun, arguments.ranks)

@@ -230,10 +230,11 @@ template <class ExponentPolicy> struct LinearLaw {
   EEPA_FUNCTION static double loss(const Coefficients &c, const Scale &scale, double before,
                                    double after)
   {
-    if (after >= before)
-      return scale.stiffness() * c.loading_loss *
-          (after * Exponent::power(after, c, scale) - before * Exponent::power(before, c, scale));
-    return opening_loss(c, scale, before) - opening_loss(c, scale, after);
+    const double lost = after >= before
+        ? scale.stiffness() * c.loading_loss *
+            (after * Exponent::power(after, c, scale) - before * Exponent::power(before, c, scale))
+        : opening_loss(c, scale, before) - opening_loss(c, scale, after);
+    return lost > 0.0 ? lost : 0.0;    // rounding must not give energy back
   }
 
   /// Energy lost when a contact opens: that of the adhesive branch from where unloading meets

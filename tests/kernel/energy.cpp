@@ -336,6 +336,80 @@ TEST(Energy, LedgerOfAnImpactCloses)
   }
 }
 
+// Sliding is what the trapezoid work of the two end forces leaves over the change of what the spring
+// holds: k/2 (b + a).d - k/2 (a.a - b.b), b and a the spring before and after, d the slip of the step
+TEST(Energy, SlidingOfOneStepIsItsTrapezoidWorkLessTheStoredChange)
+{
+  Material m = material(Law::linear, 1e3, 2e3, 0.0);
+  m.p.kt_given = true;
+  m.p.kt = 100.0;
+  m.p.mu = 0.1;
+  m.p.rolling = RollingModel::sds;
+  m.p.mu_r = 0.01;
+  m.p.kr = 80.0;
+  Bodies b;
+  b.u = Vec3::UnitZ();
+  b.v_i = Vec3(0.5, 0.3, 0.0);
+  b.w_i = Vec3(200.0, -100.0, 30.0);
+  const double dt = 1e-5;
+  History h;
+  h.max_overlap = b.overlap;
+  h.tangential_spring = Vec3(8e-6, -2e-6, 0.0);
+  h.rolling_spring = Vec3(5e-6, 1e-6, 0.0);
+  const History before = h;
+  const Outcome out = evaluate(m, b, dt, h);
+  ASSERT_TRUE(out.sliding);
+  const Contact c = b.contact();
+  auto expected = [&](double k, const Vec3 &x, const Vec3 &y, const Vec3 &d) {
+    return 0.5 * k * ((x + y).dot(d) - (y.squaredNorm() - x.squaredNorm()));
+  };
+  const double sliding = expected(100.0, before.tangential_spring, h.tangential_spring,
+                                  dt * tangential_velocity(c, 0.0));
+  EXPECT_GT(sliding, 1e-10);
+  EXPECT_NEAR(out.lost.sliding, sliding, 1e-12 * sliding);
+  const double rolling = expected(80.0, before.rolling_spring, h.rolling_spring,
+                                  dt * c.effective_radius * Vec3(200.0, -100.0, 0.0));
+  EXPECT_GT(rolling, 1e-12);
+  EXPECT_NEAR(out.lost.rolling, rolling, 1e-12 * rolling);
+}
+
+// f = -B v: B v^2 dt a step, three quarters of it in the contact's first
+TEST(Energy, DashpotsOfOneStep)
+{
+  Material m = material(Law::linear, 1e3, 2e3, 0.0);
+  m.p.damping = Damping::viscous;
+  m.p.viscous_normal = 0.03;
+  m.p.viscous_tangential = 0.02;
+  m.p.mu = 100.0;
+  Bodies b;
+  b.v_i = Vec3(-0.2, 0.1, 0.0);
+  History h;
+  const Outcome first = evaluate(m, b, 1e-6, h), second = evaluate(m, b, 1e-6, h);
+  EXPECT_NEAR(first.lost.normal_dashpot, 0.75 * 0.03 * 0.04 * 1e-6, 1e-22);
+  EXPECT_NEAR(second.lost.normal_dashpot, 0.03 * 0.04 * 1e-6, 1e-22);
+  EXPECT_NEAR(first.lost.tangential_dashpot, 0.75 * 0.02 * 0.01 * 1e-6, 1e-22);
+  EXPECT_NEAR(second.lost.tangential_dashpot, 0.02 * 0.01 * 1e-6, 1e-22);
+}
+
+// a contact that is there at the first step was not loaded up to its overlap; one that forms was
+TEST(Energy, InitialOverlapIsNotBookedAsLost)
+{
+  for (const Material &m : materials()) {
+    Bodies b;
+    NormalPath path(m);
+    History h;
+    EXPECT_EQ(evaluate(m, b, 1e-6, h).lost.hysteresis, 0.0);
+    b.v_i = Vec3(-2.0, 0.0, 0.0);    // 2e-6 deeper than a step ago
+    h = History();
+    const double deeper = path.loss(8e-6, 1e-5);
+    EXPECT_NEAR(evaluate(m, b, 1e-6, h).lost.hysteresis, deeper, 1e-12 * deeper);
+    b.v_i = Vec3(-20.0, 0.0, 0.0);    // formed within the step
+    h = History();
+    const double all = path.loss(0.0, 1e-5);
+    EXPECT_NEAR(evaluate(m, b, 1e-6, h).lost.hysteresis, all, 1e-12 * all);
+  }
+}
+
 // what a contact still holds when it opens is booked
 TEST(Energy, OpeningBooksWhatTheSpringsHold)
 {

@@ -144,7 +144,8 @@ TEST(NormalPlateau, TheLargestOverlapLoadsWhateverRounding)
   for (int k = 0; k < 20000; k++) {
     const double stiffness = random.decades(-3.0, 9.0);
     // k2 = 2 k1 to within a few units of the last place is where rounding could decide
-    const double excess = random.chance(0.5) ? random.uniform(0.0, 1.0) : random.uniform(0.0, 1e-15);
+    const double excess = random.chance(0.5) ? random.uniform(0.0, 1.0)
+                                             : random.uniform(0.0, 1e-15);
     NormalPath path(material(Law::plateau, stiffness, 2.0 * stiffness * (1.0 + excess), stiffness,
                              -stiffness * 1e-7));
     const double overlap = random.decades(-9.0, -2.0);

@@ -233,34 +233,6 @@ const Mistake compute_mistakes[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Lines, ComputeMistake, testing::ValuesIn(compute_mistakes));
 
-// A run that blows up ends with the particles' names, not with NaN in the log.
-TEST(BlowUp, OfTwoParticlesIsNamed)
-{
-  Simulation simulation;
-  simulation.open_box(3.0);
-  simulation.create({{Vec3(0, 0, 0)}, {Vec3(0.45, 0, 0)}});
-  EXPECT_TRUE(
-      refuses(simulation,
-              "fix integrate all nve/sphere\npair_style gran/eepa linear\n"
-              "pair_coeff 1 1 1e4 2e4 0 0 0\ntimestep 1e-5\nrun 1",
-              "pair_style gran/eepa: atoms (1 and 2|2 and 1) overlap by 0.55 at step 0, more "
-              "than a radius \\(0.5 and 0.5\\)"));
-}
-
-TEST(BlowUp, AtAWallIsNamed)
-{
-  Simulation simulation;
-  simulation.open_box(3.0);
-  simulation.create({{Vec3(0, 0, -0.05)}});
-  EXPECT_TRUE(
-      refuses(simulation,
-              "fix integrate all nve/sphere\npair_style zero 1.0\npair_coeff * *\n"
-              "timestep 1e-5\nfix w all wall/gran/eepa linear coeff 1e4 1e4 0 0 0 wall zplane "
-              "0 NULL\nrun 1",
-              "fix w wall/gran/eepa: atom 1 overlaps the wall by 0.55 at step 0, more than its "
-              "radius 0.5"));
-}
-
 // After an error the instance is still good: nothing half done is left behind.
 TEST(AfterAnError, TheNextCommandWorks)
 {

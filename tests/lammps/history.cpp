@@ -5,9 +5,13 @@
 #include "packing.h"
 
 #include "atom.h"
+#include "force.h"
 #include "lammps.h"
+#include "pair.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 using namespace eepa_test;
 
@@ -73,15 +77,17 @@ TEST_F(TwoSpheres, FollowThePlateauLawAlongAPath)
   EXPECT_NEAR(force(), k2 * (0.006 - 0.005), 1e-6);
 }
 
+// plateau keeps delta_max until the contact opens, linear has lowered it to 0 by then: with the old
+// delta_max = 0.02 the force at an overlap of 0.004 would be -k_adh delta_p = -25.
 TEST_F(TwoSpheres, HaveAVirginContactAfterTheyParted)
 {
-  open("linear", 0.0);
+  open("plateau", 0.0);
   carry(Vec3(-0.02, 0.001, 0));
-  carry(Vec3(0.01, 0, 0));
-  EXPECT_LT(force(), 0.0);
-  carry(Vec3(0.02, 0, 0));
+  carry(Vec3(0.016, 0, 0));
+  EXPECT_LT(force(), -24.0);
+  carry(Vec3(0.014, 0, 0));
   EXPECT_TRUE(simulation.contacts().empty());
-  carry(Vec3(-0.02, -0.001, 0));
+  carry(Vec3(-0.014, -0.001, 0));
   ASSERT_EQ(simulation.contacts().size(), 1u);
   const PairContact contact = simulation.contacts()[0];
   EXPECT_EQ(contact.max_overlap(), contact.overlap());
@@ -89,13 +95,24 @@ TEST_F(TwoSpheres, HaveAVirginContactAfterTheyParted)
   EXPECT_NEAR(contact.normal_force, k1 * contact.overlap(), 1e-9);
 }
 
+// Between two rebuilds of the neighbour list, which would drop the history of pairs apart anyway.
+TEST_F(TwoSpheres, HaveAVirginContactAfterAnOpeningWithinOneRun)
+{
+  open("plateau", 0.0);
+  // x = 1 - 0.024 sin(2 pi t/T): in to 0.024, as far out, and in again to 0.004 just after T
+  simulation("fix carry second move wiggle -0.024 0 0 0.01");
+  simulation.run(1027);
+  const double overlap = 0.024 * std::sin(2.0 * pi * 0.027);
+  EXPECT_NEAR(force(), k1 * overlap, 1e-6);
+}
+
 TEST_F(TwoSpheres, HaveAVirginContactAfterTheyWerePlacedApart)
 {
-  open("linear", 0.0);
+  open("plateau", 0.0);
   carry(Vec3(-0.02, 0, 0));
-  simulation("displace_atoms second move 0.05 0 0\nrun 0 post no\n"
-             "displace_atoms second move -0.04 0 0\nrun 0 post no");
-  EXPECT_NEAR(force(), k1 * 0.01, 1e-9);
+  simulation("displace_atoms second move 0.03 0 0\nrun 0 post no\n"
+             "displace_atoms second move -0.014 0 0\nrun 0 post no");
+  EXPECT_NEAR(force(), k1 * 0.004, 1e-9);
 }
 
 TEST_F(TwoSpheres, KeepTheirHistoryWhenPlacedWithinTheContact)
@@ -155,6 +172,30 @@ TEST_F(TwoSpheres, SingleShowsTheForcesOfTheRun)
   EXPECT_NEAR(c.p[10], 0.5 * (c.p[9] + k_adh * c.overlap()), 1e-9);
   EXPECT_LE(c.p[8], c.p[10] * (1.0 + 1e-12));
   EXPECT_GT(c.p[8], 0.0);
+}
+
+// Asked from the other side, the springs and the forces on "i" have the other sign.
+TEST_F(TwoSpheres, SingleIsTheOppositeFromTheOtherSide)
+{
+  open("linear", 0.01);
+  simulation(
+      "fix integrate all nve/sphere\npair_coeff 1 1 1e4 4e4 5e3 0 0.5 rolling sds 1e3 1 0.1");
+  simulation.set_velocity(2, Vec3(0.1, 0.5, -0.2), Vec3(1, 2, 3));
+  simulation.run(50);
+  auto *pair = simulation.lammps()->force->pair;
+  const auto *atom = simulation.lammps()->atom;
+  const Vec3 offset = Vec3(atom->x[0]) - Vec3(atom->x[1]);
+  double force;
+  pair->single(0, 1, 1, 1, offset.squaredNorm(), 1.0, 1.0, force);
+  const std::vector<double> one(pair->svector, pair->svector + pair->single_extra);
+  const double energy = pair->single(1, 0, 1, 1, offset.squaredNorm(), 1.0, 1.0, force);
+  EXPECT_NEAR(energy, one[11] + one[12] + one[13], 1e-12);
+  for (int k = 0; k < pair->single_extra; k++) {
+    const bool vector = (k >= 5 && k <= 7) || k >= 14;
+    EXPECT_NEAR(pair->svector[k], vector ? -one[k] : one[k], 1e-12 * std::fabs(one[k])) << k;
+  }
+  EXPECT_GT(one[12], 0.0);
+  EXPECT_GT(one[13], 0.0);
 }
 
 // A second set-up call changes no force, and the history that the compute sees stays to the bit.

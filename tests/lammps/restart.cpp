@@ -114,6 +114,27 @@ TEST(Restart, DoesNotTakeAnotherPairStyleBeforeForItsHistory)
   EXPECT_EQ(original.particle(2).f, restarted.particle(2).f);
 }
 
+TEST(Restart, KeepsEachHistoryOfHybrid)
+{
+  Packing packing;
+  packing.types = 2;
+  const ScratchFile file(".restart");
+  // LAMMPS restores hybrid's sub-styles and wants pair_coeffs again
+  const std::string coefficients =
+      "pair_coeff 1 * gran/eepa 1 1e4 2e4 5e3 -1 0.3 rolling sds 1e3 1 0.1\n"
+      "pair_coeff 2 2 gran/eepa 2 1e4 3e4 5e3 -1 0.3\n";
+  Simulation original, restarted;
+  original.open_box(packing.half(), 2, "p p p");
+  original.create(packing.spheres());
+  original("pair_style hybrid gran/eepa linear gran/eepa plateau\n" + coefficients + integrate);
+  original.run(200);
+  original("write_restart " + file.name());
+  restarted("read_restart " + file.name() + "\n" + restarted_box + coefficients + integrate);
+  original.run(200);
+  restarted.run(200);
+  EXPECT_LT(difference(original.particles(), restarted.particles()), 1e-10);
+}
+
 std::vector<Particle> end_of_wall_run(Simulation &simulation, int steps)
 {
   simulation.run(steps);

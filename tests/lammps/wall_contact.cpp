@@ -89,24 +89,41 @@ TEST(BothPlanes, HaveAHistoryEach)
               1e-12);
 }
 
-// A contact that opens is forgotten: the next one starts on the loading line again.
+// A contact that opens is forgotten: the next one starts on the loading line again. With the old
+// delta_max = 0.02 plateau would pull by k_adh delta_p = 50 at an overlap of 0.004.
 TEST(WallHistory, IsForgottenWhenTheContactOpens)
 {
   Simulation simulation;
-  open_walls_only(simulation, {{Vec3(0, 0, 0.48)}});
-  simulation("fix wall all wall/gran/eepa linear coeff 1e4 4e4 0 0 0.5 wall zplane 0 NULL");
-  simulation.run(1);
+  open_walls_only(simulation, {{Vec3(0, 0, 0.5)}});
+  simulation("fix wall all wall/gran/eepa plateau coeff 1e4 2e4 5e3 0 0.5 wall zplane 0 NULL");
   auto carry = [&](double distance) {
     simulation("fix carry all move linear 0 0 " + exact(distance / (1000 * 1e-5)));
     simulation.run(1000);
     simulation("unfix carry");
   };
+  carry(-0.02);
+  carry(0.016);
+  EXPECT_NEAR(simulation.fix("wall", 3), 5e3 * 0.01, 1e-6);    // remembered
   carry(0.01);
-  EXPECT_NEAR(simulation.fix("wall", 3), 0.0, 1e-6);    // below delta_p = 0.015, remembered
-  carry(0.011);
   EXPECT_EQ(simulation.fix("wall", 6), 0.0);
-  carry(-0.011);
-  EXPECT_NEAR(simulation.fix("wall", 3), -1e4 * 0.01, 1e-6);    // virgin
+  carry(-0.01);
+  EXPECT_NEAR(simulation.fix("wall", 3), -1e4 * 0.004, 1e-6);    // virgin
+}
+
+// A set-up call neither winds the spring nor remembers an overlap: displaced out to half of it
+// before any step, the contact is still on its loading line.
+TEST(WallHistory, IsNotChangedBySetUpCalls)
+{
+  Simulation simulation;
+  open_walls_only(simulation, {{Vec3(0, 0, 0.48), Vec3(3, 0, 0), Vec3(0, 4, 0)}});
+  simulation("fix wall all wall/gran/eepa linear coeff 1e4 4e4 5e3 0 0.5 wall zplane 0 NULL");
+  for (int k = 0; k < 3; k++) {
+    simulation("run 0 post no");
+    EXPECT_EQ(simulation.particle(1).f.x(), 0.0);
+    EXPECT_NEAR(simulation.particle(1).f.z(), 1e4 * 0.02, 1e-9);
+  }
+  simulation("displace_atoms all move 0 0 0.01\nrun 0 post no");
+  EXPECT_NEAR(simulation.particle(1).f.z(), 1e4 * 0.01, 1e-9);
 }
 
 TEST(Cylinder, PushesInwardInsideAndOutwardOutside)
@@ -148,7 +165,7 @@ TEST(WallForce, IsMinusTheForceOnTheParticles)
   open_walls_only(simulation, spheres);
   simulation("fix integrate all nve/sphere\n"
              "fix wall all wall/gran/eepa linear coeff 1e4 2e4 5e3 -1 0.5 restitution 0.5 wall "
-             "zplane 0 NULL\nfix_modify wall energy no");
+             "zplane 0 NULL");
   for (int k = 0; k < 4; k++) {
     simulation.run(100);
     Vec3 sum = Vec3::Zero();

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-only
 """What is to be run: one case is one specimen, with every variable that in.oedometer is given."""
 from __future__ import annotations
 
@@ -18,7 +19,7 @@ K1, K2 = 5.0e3, 1.0e4
 STRAIN_RATE = 0.5
 PACKING_RATE = 1.0
 # What a run of the default parameters takes, only used to foresee how long it will be.
-PLACING_STEPS, PACKING_STRAIN, LOADING_STRAIN, UNLOADING_STRAIN = 2200, 0.06, 0.028, 0.018
+RELAXING_STEPS, PACKING_STRAIN, LOADING_STRAIN, UNLOADING_STRAIN = 2000, 0.052, 0.026, 0.015
 
 
 @dataclass(frozen=True)
@@ -71,8 +72,12 @@ class Case:
         packing = 0.19 * math.sqrt(mass / (K1 * size))
         loading = 0.19 * math.sqrt(mass / (K2 * (size if self.scaled else 1.0)))
         strain = softer * (LOADING_STRAIN + UNLOADING_STRAIN)
-        return round(PLACING_STEPS + PACKING_STRAIN * size / PACKING_RATE / packing
+        return round(RELAXING_STEPS + PACKING_STRAIN * size / PACKING_RATE / packing
                      + strain / STRAIN_RATE / loading)
+
+    def inertial_number(self, stress: float) -> float:
+        """Of the strain rate at an axial stress; a test is quasi-static below about 1e-3."""
+        return STRAIN_RATE * self.diameter * math.sqrt(DENSITY / stress)
 
     def fingerprint(self, inputs: Sequence[bytes], ranks: int) -> str:
         """Of everything that the result depends on: a finished run with another one is redone.
@@ -94,6 +99,8 @@ def require_positive(name: str, value: float) -> None:
 def seeds_per_diameter(diameters: Sequence[float], given: Sequence[int]) -> List[int]:
     """How many seeds each diameter gets: as given (one for all, or one each), else more of the
     coarse ones, whose packings scatter more and cost less."""
+    for diameter in diameters:
+        require_positive("diameter", diameter)
     if not given:
         smallest = min(diameters)
         return [min(8, int(2.0 * (d / smallest) ** 2 + 1e-9)) for d in diameters]
@@ -113,8 +120,6 @@ def make_cases(diameters: Sequence[float], seeds: Sequence[int], law: str, modes
 
     At the reference diameter there is nothing to scale, so one run serves both modes.
     """
-    for diameter in diameters:
-        require_positive("diameter", diameter)
     if len(set(diameters)) < len(diameters):
         raise ValueError(f"diameters {' '.join(f'{d:g}' for d in diameters)}: one occurs twice")
     cases = []

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-only
 """From the samples of each run to mean curves on common grids, and how far they are apart.
 
 Strain is counted from the preload: where the axial stress last rises through it on loading. The

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-only
 """What a LAMMPS log says about a run: how far it is, and how long each stage took."""
 from __future__ import annotations
 

@@ -1,10 +1,11 @@
+# SPDX-License-Identifier: GPL-2.0-only
 """Says how far the study is: which run of how many, step of steps, time left."""
 from __future__ import annotations
 
 import shutil
 import sys
 import time
-from typing import Dict, List, Mapping, Sequence, TextIO, Tuple
+from typing import Dict, List, Mapping, Optional, Sequence, TextIO, Tuple
 
 from .cases import Case
 from .logs import LogSummary
@@ -13,12 +14,12 @@ from .logs import LogSummary
 class Progress:
     """One line that is written over and over on a terminal; now and then a line elsewhere."""
 
-    def __init__(self, cases: Sequence[Case], jobs: int, stream: TextIO = sys.stdout,
+    def __init__(self, cases: Sequence[Case], jobs: int, stream: Optional[TextIO] = None,
                  seconds_between_lines: float = 15.0) -> None:
         self._cases = list(cases)
         self._jobs = max(1, jobs)
-        self._stream = stream
-        self._terminal = stream.isatty()
+        self._stream = stream or sys.stdout
+        self._terminal = self._stream.isatty()
         self._interval = 0.5 if self._terminal else seconds_between_lines
         self._shown = time.monotonic()
         self._started = time.monotonic()
@@ -31,7 +32,11 @@ class Progress:
         """A run of an earlier call is taken over."""
         self._count(case, summary)
         self._work_before += self._work(case)
-        self._line(f"{self._position()} {case.name}: there already")
+
+    def begin(self) -> None:
+        """After the last kept() and before the first run."""
+        if self._finished:
+            self._line(f"{self._position()} by an earlier call, and taken over")
 
     def done(self, case: Case, summary: LogSummary) -> None:
         self._count(case, summary)

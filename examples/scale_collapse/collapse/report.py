@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-only
 """The table (CSV and text) and the figure of a study."""
 from __future__ import annotations
 
@@ -5,7 +6,7 @@ import csv
 import math
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import List, Mapping, Optional, Sequence, Tuple
 
 import matplotlib
 
@@ -17,6 +18,7 @@ from . import curves as cv  # noqa: E402
 from .curves import Curve  # noqa: E402
 
 COLOURS = ("#000000", "#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+WIDTH = {"-": 1.6, "--": 1.0}
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,8 @@ class Group:
     mode: str
     curves: List[Curve]
     timings: List[Timing]
+    #: at the preload, where it is largest
+    inertial_number: float = float("nan")
 
 
 @dataclass(frozen=True)
@@ -74,6 +78,7 @@ class Row:
     total_seconds: float
     total_speed_up: float
     particle_steps_per_second: float
+    inertial_number: float
 
 
 def make_rows(groups: Sequence[Group]) -> List[Row]:
@@ -114,7 +119,7 @@ def _row(group: Group, reference: Group, strain: float, reference_loading: float
         mode=group.mode, diameter_mm=1e3 * group.diameter, particles=group.timings[0].particles,
         seeds=len(group.curves),
         deviation_percent=0.0 if itself else bulk.percent,
-        deviation_error_percent=bulk.standard_error,
+        deviation_error_percent=float("nan") if itself else bulk.standard_error,
         deviation_by_platens_percent=0.0 if itself else platen.percent,
         deviation_unloading_percent=0.0 if itself else unloading.percent,
         porosity_at_preload=preload[0], porosity_at_preload_error=preload[1],
@@ -126,7 +131,8 @@ def _row(group: Group, reference: Group, strain: float, reference_loading: float
         total_seconds=total, total_speed_up=float(reference_total) / total,
         particle_steps_per_second=float(
             sum(t.particles * t.loading_steps for t in group.timings)
-            / sum(t.loading_seconds for t in group.timings)))
+            / sum(t.loading_seconds for t in group.timings)),
+        inertial_number=group.inertial_number)
 
 
 def write_csv(rows: Sequence[Row], path: Path) -> None:
@@ -180,6 +186,10 @@ def text_table(rows: Sequence[Row], preload: float) -> str:
              "            the standard error that the scatter of the seeds leaves",
              "by platens  the same with the strain of the specimen, platen layers and all",
              "loading     loop time of LAMMPS at equal strain; speed-up from the smallest diameter"]
+    largest = max(row.inertial_number for row in rows)
+    if math.isfinite(largest):
+        text += ["", f"The largest inertial number is {largest:.1e}, of the largest diameter at "
+                     f"{preload / 1e3:g} kPa."]
     return "\n".join(text) + "\n"
 
 
@@ -199,11 +209,14 @@ def plot(groups: Sequence[Group], path: Path, law: str, preload: float,
         title = ("stiffness and adhesion scaled with the diameter" if mode == "scaled"
                  else "the same coefficients at every diameter")
         axes[0][column].set_title(f"{mode}: {title}", fontsize=10)
-        axes[0][column].legend(fontsize=8, frameon=False, loc="upper left")
+        axes[0][column].legend(fontsize=8, frameon=False, loc="lower right")
         axes[0][column].set_xlabel("axial strain (%)")
         for lower in axes[1:, column]:
             lower.set_xlabel("axial stress (kPa)")
         axes[1][column].set_xlim(left=0.0)
+    # Room for the legend beside the curves, which both columns' go up to.
+    axes[0][0].set_xlim(right=1.35 * max(100.0 * c.loading.strain["bulk"].max()
+                                         for group in groups for c in group.curves))
     axes[0][0].set_ylabel("axial stress (kPa)")
     axes[1][0].set_ylabel("porosity of the bulk")
     axes[2][0].set_ylabel("coordination number")
@@ -225,27 +238,18 @@ def _label(group: Group, row: Optional[Row]) -> str:
 
 
 def _plot_group(axes: Sequence, group: Group, colour: str, label: str) -> None:
-    end = cv.common_strain([group.curves], "bulk")
-    mean = cv.mean_stress(group.curves, "bulk", end)
-    # The last bit, which not every seed reaches in strain, is that of the mean strain at stress.
-    _band(axes[0], 100.0 * mean.grid, mean.value / 1e3, mean.error / 1e3, colour, "-", label)
-    back = cv.mean_at_stress(group.curves, "unloading", "bulk")
-    axes[0].plot(100.0 * back.value, back.grid / 1e3, color=colour, linestyle="--", linewidth=1.0)
+    for branch, line in (("loading", "-"), ("unloading", "--")):
+        strain = cv.mean_at_stress(group.curves, branch, "bulk")
+        low, high = (100.0 * (strain.value + sign * strain.error) for sign in (-1.0, 1.0))
+        axes[0].plot(100.0 * strain.value, strain.grid / 1e3, color=colour, linestyle=line,
+                     linewidth=WIDTH[line], label=label if branch == "loading" else None)
+        axes[0].fill_betweenx(strain.grid / 1e3, low, high, color=colour, alpha=0.15,
+                              linewidth=0.0)
     for axis, quantity in ((axes[1], "bulk_porosity"), (axes[2], "coordination")):
         for branch, line in (("loading", "-"), ("unloading", "--")):
             values = cv.mean_at_stress(group.curves, branch, quantity)
-            _band(axis, values.grid / 1e3, values.value, values.error, colour, line, None)
-
-
-def _band(axis, x: np.ndarray, y: np.ndarray, error: np.ndarray, colour: str, line: str,
-          label: Optional[str]) -> None:
-    axis.plot(x, y, color=colour, linestyle=line, linewidth=1.6 if line == "-" else 1.0,
-              label=label)
-    axis.fill_between(x, y - error, y + error, color=colour, alpha=0.15, linewidth=0.0)
-
-
-def group_curves(runs: Dict[Tuple[float, str], List[Tuple[Curve, Timing]]]) -> List[Group]:
-    """Groups from (diameter, mode) to the runs of its seeds."""
-    return [Group(diameter, mode, [curve for curve, _ in members],
-                  [timing for _, timing in members])
-            for (diameter, mode), members in runs.items()]
+            axis.plot(values.grid / 1e3, values.value, color=colour, linestyle=line,
+                      linewidth=WIDTH[line])
+            axis.fill_between(values.grid / 1e3, values.value - values.error,
+                              values.value + values.error, color=colour, alpha=0.15,
+                              linewidth=0.0)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-only
 """Runs the cases: so many at once, resuming where an earlier call was stopped."""
 from __future__ import annotations
 
@@ -7,9 +8,10 @@ import shutil
 import signal
 import subprocess
 import time
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Sequence
+from typing import Dict, Iterator, List, Optional, Sequence
 
 from .cases import Case, folder_of
 from .logs import LogSummary, summarise_file, tail
@@ -35,8 +37,11 @@ class Launcher:
     ranks: int = 1
 
     def command(self, case: Case, folder: Path) -> List[str]:
-        return [self.mpirun, "-np", str(self.ranks), str(self.lmp), "-in", str(self.infile),
-                "-log", str(folder / LOG), "-var", "out", str(folder), *case.variables()]
+        """Reads the copy of the in-file in the run's folder: LAMMPS reads as it goes, and whoever
+        edits the in-file meanwhile shall not change a run that has begun."""
+        return [self.mpirun, "-np", str(self.ranks), str(self.lmp), "-in",
+                str(folder / self.infile.name), "-log", str(folder / LOG), "-var", "out",
+                str(folder), *case.variables()]
 
     def environment(self) -> Dict[str, str]:
         """Open MPI refuses to start as root or more ranks than cores unless told so, and would
@@ -46,6 +51,7 @@ class Launcher:
                 "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                 "OMPI_MCA_rmaps_base_oversubscribe": "1",
                 "OMPI_MCA_hwloc_base_binding_policy": "none",
+                "OMPI_MCA_mpi_yield_when_idle": "1",
                 "OMP_NUM_THREADS": "1"}
 
     def fingerprint(self, case: Case) -> str:
@@ -92,6 +98,7 @@ class Runner:
         if jobs < 1:
             raise ValueError(f"jobs is {jobs}, allowed is 1 or more")
         self._launcher = launcher
+        self._infile = launcher.infile.read_bytes()
         self._out = out
         self._jobs = jobs
         self._progress = progress
@@ -109,17 +116,26 @@ class Runner:
                 self._progress.kept(case, self._summary(folder_of(self._out, case)))
             else:
                 waiting.append((case, fingerprint))
+        self._progress.begin()
         try:
-            while waiting or self._active:
-                while waiting and len(self._active) < self._jobs:
-                    self._start(*waiting.pop(0))
-                time.sleep(poll_seconds)
-                for active in list(self._active):
-                    if active.process.poll() is not None:
-                        self._active.remove(active)
-                        self._finish(active)
-                self._progress.show({active.case: self._summary(active.folder)
-                                     for active in self._active})
+            with _deferred_signals() as received:
+                while waiting or self._active:
+                    while waiting and len(self._active) < self._jobs and not received:
+                        self._start(*waiting.pop(0))
+                    time.sleep(poll_seconds)
+                    for active in list(self._active):
+                        if active.process.poll() is not None:
+                            self._active.remove(active)
+                            self._finish(active)
+                    if received:
+                        break
+                    self._progress.show({active.case: self._summary(active.folder)
+                                         for active in self._active})
+                self._stop_all()
+            if signal.SIGINT in received:
+                raise KeyboardInterrupt
+            if received:
+                raise SystemExit(128 + received[0])
         finally:
             self._stop_all()
             self._progress.close()
@@ -133,6 +149,7 @@ class Runner:
             shutil.rmtree(stale, ignore_errors=True)
         folder = _beside(final, "partial")
         folder.mkdir(parents=True)
+        (folder / self._launcher.infile.name).write_bytes(self._infile)
         with (folder / SCREEN).open("wb") as screen:
             # A session of its own: Ctrl-C in the terminal comes here and not to mpirun too.
             process = subprocess.Popen(
@@ -175,6 +192,25 @@ class Runner:
         self._active.clear()
 
 
+@contextmanager
+def _deferred_signals() -> Iterator[List[int]]:
+    """Ctrl-C and a kill are put on the list that this gives instead of striking anywhere, such as
+    between the start of a run and the note that it was started."""
+    received: List[int] = []
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    before = {}
+    try:
+        for number in numbers:
+            before[number] = signal.signal(number, lambda got, frame: received.append(got))
+    except ValueError:
+        pass  # not in the main thread, which is where signals go
+    try:
+        yield received
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
 def _beside(folder: Path, ending: str) -> Path:
     return folder.with_name(f"{folder.name}.{ending}")
 
@@ -187,11 +223,19 @@ def _signal_group(process: subprocess.Popen, number: int) -> None:
 
 
 def _failure(active: _Active, folder: Path) -> str:
-    ending = tail(folder / SCREEN) or tail(folder / LOG) or ["(it wrote nothing)"]
+    ending = _up_to_error(tail(folder / SCREEN, 200)) or tail(folder / LOG) or [
+        "(it wrote nothing)"]
     command = " ".join(map(str, active.process.args)).replace(str(active.folder), str(folder))
     return "\n".join([f"run {active.case.name} failed with status {active.process.returncode}; "
                       f"its log is {folder / LOG} and ends", ""]
                      + [f"    {line}" for line in ending] + ["", f"It was started by\n    {command}"])
+
+
+def _up_to_error(lines: List[str]) -> List[str]:
+    """The last lines; where there is an error, those that lead to it, without what mpirun has to
+    say about it afterwards."""
+    errors = [k for k, line in enumerate(lines) if line.startswith("ERROR")]
+    return lines[:errors[-1] + 2][-20:] if errors else lines[-20:]
 
 
 def find_lmp(given: Optional[Path], candidates: Sequence[Path]) -> Path:

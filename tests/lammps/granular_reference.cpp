@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// Against LAMMPS's own `pair_style granular` where the physics is the same: linear spring and
+// dashpot (k2 = k1, k_adh = f0 = 0), linear_history friction, rolling sds. LAMMPS winds its
+// springs with one lever arm (the whole radius) and turns with another; this project uses
+// R - delta/2 for both, so the two part by O(delta/R), which goes with k^-1/2.
+
+#include "packing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+using namespace eepa_test;
+
+namespace {
+
+struct Model {
+  const char *name;
+  double mu;
+  bool dashpot;           ///< in the contact; LAMMPS's friction bound has it, this project's has not
+  const char *rolling;    ///< "" or the mu_r of sds
+  bool rolling_dashpot;
+  double speed;    ///< of approach of each
+  Vec3 shift, spin;
+};
+
+/// An oblique collision of two spheres of mass 1: velocities and spins at the end.
+std::vector<Particle> collide(const Model &model, double k, bool own)
+{
+  const double mu = model.mu, kt = 2.0 / 7.0 * k, bn = model.dashpot ? 0.04 * std::sqrt(k) : 0.0,
+               bt = model.dashpot ? 0.02 * std::sqrt(k) : 0.0, kr = 0.3 * k,
+               gr = model.rolling_dashpot ? 0.01 * std::sqrt(k) : 0.0;
+  const bool rolling = *model.rolling;
+  Simulation simulation;
+  simulation.open_box(3.0);
+  simulation.create({{Vec3(-0.5005, 0, 0), Vec3(model.speed, 0, 0) + model.shift, model.spin},
+                     {Vec3(0.5005, 0, 0), Vec3(-model.speed, 0, 0), Vec3::Zero()}});
+  if (own) {
+    simulation("pair_style gran/eepa linear\npair_coeff * * " + exact(k) + " " + exact(k) +
+               " 0 0 " + exact(mu) + " kt " + exact(kt) + " viscous " + exact(bn) + " " +
+               exact(bt) +
+               (rolling ? " rolling sds " + exact(kr) + " " + exact(gr) + " " + model.rolling : ""));
+  } else {
+    // damping velocity: the coefficient is B itself; that of the tangent is a multiple of it
+    simulation("pair_style granular\npair_coeff * * hooke " + exact(k) + " " + exact(bn) +
+               " damping velocity tangential linear_history " + exact(kt) + " " +
+               exact(model.dashpot ? bt / bn : 0.0) + " " + exact(mu) +
+               (rolling ? " rolling sds " + exact(kr) + " " + exact(gr) + " " + model.rolling : ""));
+  }
+  // a contact lasts pi sqrt(m*/k); 4000 steps for it and the way
+  const double contact = pi * std::sqrt(0.5 / k) + 0.001 / (2.0 * model.speed);
+  simulation("fix integrate all nve/sphere\ntimestep " + exact(contact / 3000.0));
+  simulation.run(3600);
+  return simulation.particles();
+}
+
+/// Largest difference of velocities and of surface speeds through spin.
+double deviation(const std::vector<Particle> &a, const std::vector<Particle> &b)
+{
+  double worst = 0.0;
+  for (std::size_t k = 0; k < a.size(); k++)
+    worst = std::max({worst, (a[k].v - b[k].v).norm(), 0.5 * (a[k].omega - b[k].omega).norm()});
+  return worst;
+}
+
+class GranularCollision : public testing::TestWithParam<Model> {};
+
+// Stiffer by 100 the overlap is a tenth, and so is the deviation.
+TEST_P(GranularCollision, IsThatOfLammpsUpToTheLeverArm)
+{
+  const Model &model = GetParam();
+  double by_stiffness[3];
+  for (int n = 0; n < 3; n++) {
+    const double k = 1e4 * std::pow(100.0, n);
+    const auto reference = collide(model, k, false), own = collide(model, k, true);
+    EXPECT_GT((reference[0].v - Vec3(model.speed, 0, 0) - model.shift).norm(), 0.5);    // it did collide
+    by_stiffness[n] = deviation(reference, own);
+    const double overlap = 2.0 * model.speed * std::sqrt(0.5 / k);
+    EXPECT_LT(by_stiffness[n], 2.0 * overlap / 0.5) << k;
+  }
+  std::printf("%s: %.1e %.1e %.1e\n", model.name, by_stiffness[0], by_stiffness[1],
+              by_stiffness[2]);
+  // to an accuracy of the time integration, which is alike in both but for the arms
+  EXPECT_LT(by_stiffness[1], 0.2 * by_stiffness[0] + 1e-9);
+  EXPECT_LT(by_stiffness[2], 0.2 * by_stiffness[1] + 1e-9);
+}
+const Model models[] = {
+    {"sliding", 0.4, false, "", false, 1.0, Vec3(0, 4, 1), Vec3::Zero()},
+    {"sticking", 0.4, false, "", false, 1.0, Vec3(0, 0.3, 0.2), Vec3(0, 0.1, 0)},
+    {"damped", 1e9, true, "", false, 1.0, Vec3(0, 0.6, 0), Vec3(0, 0, 1)},
+    {"rolling", 0.4, false, "0.1", false, 1.0, Vec3(0, 0.3, 0), Vec3(0, 1, 3)},
+    {"rolling_damped", 0.4, false, "0.1", true, 1.0, Vec3(0, 0.3, 0), Vec3(0, 1, 3)},
+};
+INSTANTIATE_TEST_SUITE_P(Models, GranularCollision, testing::ValuesIn(models),
+                         [](const auto &info) { return std::string(info.param.name); });
+
+// Central collisions have no arm: the same motion to rounding.
+TEST(GranularReference, CentralCollisionIsTheSameToRounding)
+{
+  const Model model = {"central", 0.4, true, "", false, 1.0, Vec3::Zero(), Vec3::Zero()};
+  EXPECT_LT(deviation(collide(model, 1e4, false), collide(model, 1e4, true)), 1e-12);
+}
+
+// A packing without friction: no arms either.
+TEST(GranularReference, FrictionlessPackingMovesAlike)
+{
+  Packing packing;
+  packing.polydisperse = true;
+  std::vector<Particle> end[2];
+  for (const bool own : {false, true}) {
+    Simulation simulation;
+    simulation.open_box(packing.half(), 1, "p p p");
+    simulation.create(packing.spheres());
+    simulation(own ? "pair_style gran/eepa linear\npair_coeff * * 1e4 1e4 0 0 0 viscous 4 0"
+                   : "pair_style granular\npair_coeff * * hooke 1e4 4 damping velocity tangential "
+                     "linear_history 0 0 0");
+    simulation("fix integrate all nve/sphere\ntimestep 5e-4");
+    simulation.run(300);
+    end[own] = simulation.particles();
+  }
+  EXPECT_LT(difference(end[0], end[1]), 1e-9);
+}
+
+}    // namespace

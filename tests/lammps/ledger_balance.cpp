@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// compute gran/eepa/energy: the balance of a packing that is compressed and let go, each channel
+// against its closed form, and that neither ranks nor its mere existence change anything.
+
+#include "packing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+using namespace eepa_test;
+
+namespace {
+
+enum {
+  ELASTIC_NORMAL,
+  ELASTIC_TANGENTIAL,
+  ELASTIC_ROLLING,
+  HYSTERESIS,
+  NORMAL_DASHPOT,
+  TANGENTIAL_DASHPOT,
+  SLIDING,
+  ROLLING,
+  WALL_WORK
+};
+
+double dissipated(const std::vector<double> &e)
+{
+  return std::accumulate(e.begin() + HYSTERESIS, e.begin() + WALL_WORK, 0.0);
+}
+double elastic(const std::vector<double> &e)
+{
+  return std::accumulate(e.begin(), e.begin() + HYSTERESIS, 0.0);
+}
+
+/* ---------------------------------------------------------------------- a packing */
+
+struct Balance {
+  const char *name, *style, *coefficients;
+  double stiffness;    ///< that sets the time step's bound
+};
+
+struct Course {
+  double drift = 0.0;       ///< the largest change of the sum that should be constant
+  double put_in = 0.0;      ///< kinetic energy of the start and all positive work of walls
+  double decrease = 0.0;    ///< the largest of any dissipation term within 10 steps
+  std::vector<double> end;
+};
+
+/// 512 particles are compressed by 4% and let go: the top goes down and up again as a cosine,
+/// the other walls drag, and there is gravity.
+Course compress(const Balance &law, double fraction_of_bound)
+{
+  constexpr double period = 0.25, gravity = 10.0;
+  Packing packing;
+  packing.side = 8;
+  packing.spacing = 1.0;
+  packing.speed = 0.0;    // see LedgerStart
+  const std::string wall = exact(packing.half());
+  Simulation simulation;
+  simulation.open_box(packing.half() + 0.5, 1, "f f f");
+  simulation.create(packing.spheres());
+  const double bound = 0.2 * std::sqrt(0.85 / law.stiffness);    // radii are 0.5, masses 1
+  const int steps = 10 * static_cast<int>(std::ceil(0.1 * period / (fraction_of_bound * bound)));
+  const std::string style = law.style, coefficients = law.coefficients;
+  const auto fix = [&](const char *id, const std::string &kind) {
+    simulation(std::string("fix ") + id + " all wall/gran/eepa " + style + " coeff " +
+               coefficients + " wall " + kind);
+  };
+  simulation("pair_style gran/eepa " + style + "\npair_coeff * * " + coefficients +
+             "\nfix integrate all nve/sphere\nfix gravity all gravity " + exact(gravity) +
+             " vector 0 0 -1\ntimestep " + exact(period / steps));
+  fix("sides", "xplane -" + wall + " " + wall + " velocity 0 0.5 0");
+  fix("ends", "yplane -" + wall + " " + wall + " shear x 1");
+  fix("floor", "zplane -" + wall + " NULL");
+  fix("top", "zplane NULL " + wall + " wiggle z -0.16 " + exact(period));
+  simulation("compute ledger all gran/eepa/energy");
+  simulation.run(0);
+
+  Course course;
+  double start = 0.0, work = 0.0;
+  std::vector<double> last = simulation.compute_vector("ledger");
+  for (int step = 0; step <= steps; step += 10) {
+    if (step) simulation("run 10 pre no post no");
+    course.end = simulation.compute_vector("ledger");
+    double kinetic = 0.0, potential = 0.0;
+    for (const auto &p : simulation.particles()) {
+      kinetic += p.kinetic_energy();
+      potential += p.mass * gravity * p.x.z();
+    }
+    const double sum =
+        kinetic + potential + elastic(course.end) + dissipated(course.end) - course.end[WALL_WORK];
+    if (step == 0) {
+      start = sum;
+      course.put_in = kinetic;
+    }
+    course.drift = std::max(course.drift, std::fabs(sum - start));
+    course.put_in += std::max(0.0, course.end[WALL_WORK] - work);
+    work = course.end[WALL_WORK];
+    for (int k = HYSTERESIS; k <= ROLLING; k++)
+      course.decrease = std::max(course.decrease, last[k] - course.end[k]);
+    last = course.end;
+  }
+  return course;
+}
+
+class CompressedPacking : public testing::TestWithParam<Balance> {};
+
+// Half the bound of the contract; at a quarter the drift must fall at least linearly, with a
+// margin for the noise of two different chaotic motions.
+TEST_P(CompressedPacking, KeepsTheSumOfAllEnergies)
+{
+  const Course half = compress(GetParam(), 0.5), quarter = compress(GetParam(), 0.25);
+  for (const auto *course : {&half, &quarter}) {
+    EXPECT_GT(course->put_in, 500.0);
+    // noise of summing: hundreds of thousands of terms, 1e-16 of some hundred each
+    EXPECT_LT(course->decrease, 1e-9);
+    for (int k = HYSTERESIS; k <= ROLLING; k++) {
+      if (k == ROLLING && std::string(GetParam().coefficients).find("rolling") == std::string::npos)
+        continue;
+      EXPECT_GT(course->end[k], 1e-4 * course->put_in) << k;    // each channel takes part
+    }
+  }
+  EXPECT_LT(half.drift, 1e-3 * half.put_in);
+  EXPECT_LT(quarter.drift, 0.6 * half.drift + 2e-5 * half.put_in);
+  RecordProperty("drift_half", exact(half.drift / half.put_in));
+  std::printf("%s: drift %.2e and %.2e of %.4g put in, decrease %.1e\n", GetParam().name,
+              half.drift / half.put_in, quarter.drift / quarter.put_in, half.put_in,
+              std::max(half.decrease, quarter.decrease));
+}
+const Balance balances[] = {
+    {"linear_sds", "linear", "1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling sds 2e3 1 0.1", 2e4},
+    {"plateau_constant", "plateau", "1e4 2e4 5e3 0 0.3 restitution 0.7 rolling constant 0.05", 2e4},
+};
+INSTANTIATE_TEST_SUITE_P(Laws, CompressedPacking, testing::ValuesIn(balances),
+                         [](const auto &info) { return std::string(info.param.name); });
+
+/* ---------------------------------------------------------------------- the first step */
+
+// Two spheres that already overlap, and part: the first step unloads the given overlap along the
+// loading line, because a virgin contact has no other, and the ledger must say so. 1e-6: velocity
+// Verlet; what it did say was wrong by v dt k1 delta (1 - k1/k2), 9e-4 here.
+TEST(LedgerStart, GivenOverlapsThatPartAtOnceAreBooked)
+{
+  for (const char *law : {"plateau", "linear", "linear exponent 1.5"}) {
+    const bool unit = std::string(law).find("1.5") == std::string::npos;
+    Simulation simulation;
+    simulation.open_box(3.0);
+    simulation.create({{Vec3(-0.495, 0, 0), Vec3(-1, 0, 0)}, {Vec3(0.495, 0, 0), Vec3(1, 0, 0)}});
+    simulation(std::string("pair_style gran/eepa ") + law + "\npair_coeff * * " +
+               (unit ? "1e4 2e4 0 0 0" : "1e5 2e5 0 0 0 kt 0") +
+               "\nfix integrate all nve/sphere\ntimestep 1e-5\n"
+               "compute ledger all gran/eepa/energy");
+    simulation.run(0);
+    const auto sum = [&] {
+      const auto e = simulation.compute_vector("ledger");
+      double kinetic = 0.0;
+      for (const auto &p : simulation.particles()) kinetic += p.kinetic_energy();
+      return kinetic + elastic(e) + dissipated(e);
+    };
+    const double before = sum();
+    for (int k = 0; k < 4; k++) {
+      simulation.run(1);
+      EXPECT_NEAR(sum(), before, 1e-6) << law << " step " << k + 1;
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- one channel alone */
+
+/// Two spheres of mass 1 that meet head on at 1 and 1; the ledger when they have parted.
+std::vector<double> head_on(const std::string &law, double *lost = nullptr)
+{
+  Simulation simulation;
+  simulation.open_box(3.0);
+  simulation.create(
+      {{Vec3(-0.501, 0, 0), Vec3(1, 0, 0)}, {Vec3(0.501, 0, 0), Vec3(-1, 0, 0)}});
+  simulation("pair_style gran/eepa " + law +
+             "\nfix integrate all nve/sphere\ntimestep 1e-5\ncompute ledger all gran/eepa/energy");
+  simulation.run(6000);
+  double kinetic = 0.0;
+  for (const auto &p : simulation.particles()) kinetic += p.kinetic_energy();
+  if (lost) *lost = 1.0 - kinetic;
+  auto e = simulation.compute_vector("ledger");
+  EXPECT_EQ(elastic(e), 0.0);    // they have parted
+  return e;
+}
+
+TEST(LedgerChannel, ElasticContactDissipatesNothing)
+{
+  for (const char *law : {"linear\npair_coeff * * 1e4 1e4 0 0 0",
+                          "linear\npair_coeff * * 1e4 1e4 0 -5 0.5",
+                          "linear exponent 1.5\npair_coeff * * 1e5 1e5 0 0 0.5 kt 1e4"}) {
+    double lost;
+    const auto e = head_on(law, &lost);
+    EXPECT_LT(std::fabs(dissipated(e)), 1e-13) << law;
+    EXPECT_LT(std::fabs(lost), 1e-4) << law;
+  }
+}
+
+// The unloading line gives back k1/k2 of what loading stored: e^2 = k1/k2.
+TEST(LedgerChannel, HysteresisTakesWhatAPlasticImpactLoses)
+{
+  double lost;
+  auto e = head_on("linear\npair_coeff * * 1e4 4e4 0 0 0", &lost);
+  EXPECT_NEAR(e[HYSTERESIS], 0.75, 1e-4);
+  EXPECT_NEAR(lost, 0.75, 1e-3);
+  e[HYSTERESIS] = 0.0;
+  EXPECT_EQ(dissipated(e), 0.0);
+  for (const char *law : {"linear\npair_coeff * * 1e4 2e4 5e3 0 0.5",
+                          "plateau\npair_coeff * * 1e4 2e4 5e3 0 0.5",
+                          "linear exponent 1.5\npair_coeff * * 1e5 2e5 2e4 0 0 kt 0"}) {
+    e = head_on(law, &lost);
+    EXPECT_GT(lost, 0.2) << law;
+    EXPECT_NEAR(e[HYSTERESIS], lost, 1e-3 * lost) << law;
+    EXPECT_EQ(e[NORMAL_DASHPOT] + e[TANGENTIAL_DASHPOT] + e[SLIDING] + e[ROLLING], 0.0) << law;
+  }
+}
+
+TEST(LedgerChannel, NormalDashpotTakesOneMinusESquared)
+{
+  for (const double restitution : {0.9, 0.5, 0.2}) {
+    double lost;
+    auto e = head_on("linear\npair_coeff * * 1e4 1e4 0 0 0 restitution " + exact(restitution),
+                     &lost);
+    EXPECT_NEAR(e[NORMAL_DASHPOT], 1.0 - restitution * restitution, 1e-3);
+    EXPECT_NEAR(e[NORMAL_DASHPOT], lost, 1e-3);
+    e[NORMAL_DASHPOT] = 0.0;
+    EXPECT_LT(std::fabs(dissipated(e)), 1e-13);
+  }
+  double lost;
+  const auto e = head_on("linear limit_damping yes\npair_coeff * * 1e4 1e4 0 0 0 restitution 0.2",
+                         &lost);
+  EXPECT_NEAR(e[NORMAL_DASHPOT], lost, 1e-3);
+}
+
+/// A sphere that nobody moves, pressed 0.01 into a wall; N = k1 0.01 = 100.
+class HeldSphere : public testing::Test {
+ protected:
+  static constexpr double time_step = 1e-5, force = 100.0;
+  static constexpr int steps = 5000;
+  static constexpr double time = steps * time_step;
+
+  static std::vector<double> drag(const std::string &coefficients, const std::string &motion,
+                                  const Vec3 &omega = Vec3::Zero())
+  {
+    Simulation simulation;
+    simulation.open_box(3.0);
+    simulation.create({{Vec3(0, 0, 0.49), Vec3::Zero(), omega}});
+    simulation("pair_style zero 1.0\npair_coeff * *\nfix wall all wall/gran/eepa linear coeff " +
+               coefficients + " wall zplane 0 NULL " + motion + "\ntimestep " + exact(time_step) +
+               "\ncompute ledger all gran/eepa/energy");
+    simulation.run(steps);
+    return simulation.compute_vector("ledger");
+  }
+};
+
+// mu N over the distance slid; the spring holds mu N and the rest of the way.
+TEST_F(HeldSphere, SlidingTakesMuNTimesTheDistance)
+{
+  const double kt = 4e3, mu = 0.3, speed = 2.0, f = mu * force;
+  const auto e = drag("1e4 1e4 0 0 0.3 kt 4e3", "shear x 2");
+  EXPECT_NEAR(e[ELASTIC_TANGENTIAL], 0.5 * f * f / kt, 1e-10);
+  EXPECT_NEAR(e[SLIDING], f * (speed * time - f / kt), 1e-9);
+  // the slider's work of one step is a trapezoid
+  EXPECT_NEAR(e[WALL_WORK], e[SLIDING] + e[ELASTIC_TANGENTIAL], f * speed * time_step);
+  EXPECT_EQ(e[HYSTERESIS] + e[NORMAL_DASHPOT] + e[ROLLING], 0.0);
+  EXPECT_NEAR(e[TANGENTIAL_DASHPOT], 0.0, 1e-12);    // rounding of f + kt xi
+}
+
+TEST_F(HeldSphere, TangentialDashpotTakesBTimesTheSpeedSquared)
+{
+  const auto e = drag("1e4 1e4 0 0 1e3 kt 0 viscous 0 7", "shear x 2");
+  EXPECT_NEAR(e[TANGENTIAL_DASHPOT], 7.0 * 4.0 * time, 7.0 * 4.0 * time_step);
+  EXPECT_NEAR(e[WALL_WORK], e[TANGENTIAL_DASHPOT], 7.0 * 4.0 * time_step);
+  EXPECT_EQ(e[HYSTERESIS] + e[NORMAL_DASHPOT] + e[SLIDING] + e[ROLLING], 0.0);
+}
+
+TEST_F(HeldSphere, RollingTakesMuRNTimesTheAngle)
+{
+  const Vec3 omega(3, -4, 2);    // 5 in the plane; twisting is free
+  auto e = drag("1e4 1e4 0 0 0 rolling constant 0.2", "", omega);
+  EXPECT_NEAR(e[ROLLING], 0.2 * force * 0.5 * 5.0 * time, 0.2 * force * 0.5 * 5.0 * time_step);
+  e[ROLLING] = 0.0;
+  e[ELASTIC_NORMAL] = 0.0;
+  for (const double value : e) EXPECT_EQ(value, 0.0);
+
+  const double kr = 2e3, f = 0.2 * force;
+  e = drag("1e4 1e4 0 0 0 rolling sds 2e3 0 0.2", "", omega);
+  EXPECT_NEAR(e[ELASTIC_ROLLING], 0.5 * f * f / kr, 1e-10);
+  EXPECT_NEAR(e[ROLLING], f * (0.5 * 5.0 * time - f / kr), 1e-9);
+  EXPECT_EQ(e[HYSTERESIS] + e[NORMAL_DASHPOT] + e[TANGENTIAL_DASHPOT] + e[SLIDING], 0.0);
+}
+
+/* ---------------------------------------------------------------------- plateau with f0 */
+
+/// A wall is pressed into a held sphere and drawn off again; the ledger after `cycles` of it.
+std::vector<double> wall_cycle(const std::string &law, int cycles = 1)
+{
+  Simulation simulation;
+  simulation.open_box(3.0);
+  simulation.create({{Vec3(0, 0, 0.502)}});
+  // 0.022 up and down: to an overlap of 0.02
+  simulation("pair_style zero 1.0\npair_coeff * *\nfix wall all wall/gran/eepa " + law +
+             " wall zplane 0 NULL wiggle z 0.011 0.04\ntimestep 5e-6\n"
+             "compute ledger all gran/eepa/energy");
+  simulation.run(8000 * cycles);
+  auto e = simulation.compute_vector("ledger");
+  EXPECT_EQ(elastic(e), 0.0);
+  return e;
+}
+
+// f0 pulls from delta = 0 on the way in and lets go at the plateau's begin, delta_p (1 - k_adh/k2),
+// on the way out: |f0| times that is created at each opening, and at most |f0| delta_p.
+TEST(PlateauWithPullOff, CreatesF0TimesTheOverlapWhereThePlateauBegins)
+{
+  const double plastic = 0.01, f0 = 150.0;
+  for (const double k_adh : {0.0, 2e3, 8e3}) {
+    const std::string stiffness = "plateau coeff 1e4 2e4 " + exact(k_adh) + " ";
+    const auto without = wall_cycle(stiffness + "0 0"), with = wall_cycle(stiffness + "-150 0");
+    const double created = without[HYSTERESIS] - with[HYSTERESIS];
+    const double plateau_begin = plastic * (1.0 - k_adh / 2e4);
+    EXPECT_NEAR(created, f0 * plateau_begin, 1e-6);
+    EXPECT_LE(created, f0 * plastic + 1e-6);
+    // and it is real: the wall has done that much less. A step of f0 falls within a time step.
+    const double stride = 1.8 * 5e-6, plateau = k_adh * plastic;
+    EXPECT_NEAR(with[WALL_WORK], with[HYSTERESIS], (f0 + plateau) * stride);
+    EXPECT_NEAR(without[WALL_WORK], without[HYSTERESIS], plateau * stride + 1e-5);
+    if (k_adh == 0.0) {
+      EXPECT_NEAR(without[HYSTERESIS], 0.25 * 1e4 * 0.02 * 0.02, 1e-6);
+      EXPECT_LT(with[HYSTERESIS], 0.0);    // more than the whole cycle dissipates
+      EXPECT_NEAR(wall_cycle(stiffness + "-150 0", 3)[HYSTERESIS], 3.0 * with[HYSTERESIS], 1e-5);
+    }
+  }
+}
+
+TEST(PlateauWithPullOff, IsNotMatchedByLinear)
+{
+  for (const char *f0 : {"0", "-150"}) {
+    const auto e = wall_cycle(std::string("linear coeff 1e4 2e4 2e3 ") + f0 + " 0");
+    EXPECT_GT(e[HYSTERESIS], 0.5);
+    EXPECT_NEAR(e[WALL_WORK], e[HYSTERESIS], 150.0 * 1.8 * 5e-6);
+  }
+}
+
+/* ---------------------------------------------------------------------- ranks, newton, existence */
+
+void open_walled(Simulation &simulation, const std::string &law, bool walls,
+                 const std::string &newton)
+{
+  Packing packing;
+  packing.side = 5;
+  packing.polydisperse = true;
+  packing.speed = 1.0;
+  auto spheres = packing.spheres();
+  if (!walls)
+    for (auto &sphere : spheres) sphere.v += Vec3(20, -15, 10);
+  simulation.open_box(packing.half() + (walls ? 0.5 : 0.0), 1, walls ? "f f f" : "p p p", newton);
+  simulation.create(spheres);
+  const auto coefficients = law.substr(law.find('/') + 1), style = law.substr(0, law.find('/'));
+  simulation("pair_style gran/eepa " + style + "\npair_coeff * * " + coefficients +
+             "\nfix integrate all nve/sphere\ntimestep 2e-4");
+  if (!walls) return;
+  const std::string wall = exact(packing.half());
+  for (const std::string plane : {"xplane", "yplane", "zplane"})
+    simulation("fix " + plane + " all wall/gran/eepa " + style + " coeff " + coefficients +
+               " wall " + plane + " -" + wall + " " + wall +
+               (plane == "xplane" ? " velocity 0.2 0.3 0" : ""));
+}
+
+constexpr const char *ledger_laws[] = {
+    "linear/1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling sds 2e3 1 0.1",
+    "plateau/1e4 2e4 5e3 -1 0.3 viscous 3 2 rolling constant 0.05"};
+
+class ParallelLedger : public testing::TestWithParam<const char *> {};
+
+// 1e-10 of the largest: the same motion to 1e-11, and other orders of summing.
+TEST_P(ParallelLedger, IsThatOfOneRankWithNewtonOnAndOff)
+{
+  double worst = 0.0;
+  for (const bool walls : {false, true}) {
+    Simulation alone(MPI_COMM_SELF);
+    open_walled(alone, GetParam(), walls, "on");
+    alone("compute ledger all gran/eepa/energy");
+    alone.run(250);
+    const auto expected = alone.compute_vector("ledger");
+    EXPECT_GT(dissipated(expected), 5.0);
+    double largest = 0.0;
+    for (const double value : expected) largest = std::max(largest, std::fabs(value));
+    for (const char *newton : {"on", "off"}) {
+      Simulation together;
+      open_walled(together, GetParam(), walls, newton);
+      together("compute ledger all gran/eepa/energy");
+      together.run(250);
+      const auto e = together.compute_vector("ledger");
+      for (std::size_t k = 0; k < e.size(); k++) {
+        EXPECT_NEAR(e[k], expected[k], 1e-10 * largest) << k << walls << newton;
+        worst = std::max(worst, std::fabs(e[k] - expected[k]) / largest);
+      }
+    }
+  }
+  RecordProperty("worst", exact(worst));
+}
+
+// Contacts that open where lists are rebuilt are booked like all others.
+TEST_P(ParallelLedger, DoesNotDependOnWhenNeighboursAreFound)
+{
+  std::vector<double> e[2];
+  for (const bool often : {false, true}) {
+    Simulation simulation;
+    open_walled(simulation, GetParam(), true, often ? "off" : "on");
+    simulation("compute ledger all gran/eepa/energy");
+    if (often) simulation("neigh_modify every 1 delay 0 check no");
+    simulation.run(250);
+    e[often] = simulation.compute_vector("ledger");
+  }
+  for (std::size_t k = 0; k < e[0].size(); k++)
+    EXPECT_NEAR(e[0][k], e[1][k], 1e-10 * dissipated(e[0])) << k;
+}
+
+TEST_P(ParallelLedger, ChangesNothingByBeingThere)
+{
+  for (const bool walls : {false, true}) {
+    std::vector<Particle> end[2];
+    for (const bool kept : {false, true}) {
+      Simulation simulation;
+      open_walled(simulation, GetParam(), walls, "on");
+      if (kept) simulation("compute ledger all gran/eepa/energy");
+      simulation.run(250);
+      end[kept] = simulation.particles();
+      if (kept) {
+        EXPECT_GT(dissipated(simulation.compute_vector("ledger")), 5.0);
+      }
+    }
+    ASSERT_EQ(end[0].size(), 125u);
+    int same = 0;
+    for (std::size_t k = 0; k < end[0].size(); k++)
+      same += end[0][k].x == end[1][k].x && end[0][k].v == end[1][k].v &&
+          end[0][k].omega == end[1][k].omega && end[0][k].f == end[1][k].f &&
+          end[0][k].torque == end[1][k].torque;
+    EXPECT_EQ(same, 125) << walls;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Laws, ParallelLedger, testing::ValuesIn(ledger_laws));
+
+}    // namespace
