@@ -59,8 +59,11 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
   const double normal_velocity = contact.velocity.dot(contact.normal);
   // a contact that starts with an overlap (a packing's first step) was not loaded up to it
   double loaded = before.max_overlap;
-  if (loaded == 0.0) loaded = contact.overlap + normal_velocity * time_step;
-  if (loaded < 0.0) loaded = 0.0;
+  if (loaded == 0.0) {
+    loaded = contact.overlap + normal_velocity * time_step;
+    if (loaded < 0.0) loaded = 0.0;
+    if (loaded > contact.overlap) loaded = contact.overlap;
+  }
   lost.hysteresis = ContactLaw::Normal::loss(c, scale, loaded, after.max_overlap);
 
   lost.normal_dashpot =
@@ -81,7 +84,8 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
     if constexpr (ContactLaw::Rolling::has_spring) {
       const double kr = scale.stiffness() * c.kr;
       const Vec3 rolled = contact.effective_radius *
-          (contact.angular_velocity - contact.angular_velocity.dot(contact.normal) * contact.normal);
+          (contact.angular_velocity -
+           contact.angular_velocity.dot(contact.normal) * contact.normal);
       const Vec3 earlier = rotate_into_plane(before.rolling_spring, contact.normal);
       lost.rolling = detail::slip_loss(kr, earlier, after.rolling_spring, time_step * rolled) -
           share * (work + kr * time_step * after.rolling_spring.dot(rolled));

@@ -22,7 +22,7 @@ namespace detail {
 /// Mixes the parameters of two types into those of their contact.
 ///
 /// Stiffnesses and given dashpots harmonically (in series), f0, mu, mu_r and e geometrically.
-/// Mixing a type with itself returns its own parameters, and k2 >= k1 (k2 >= 2 k1) of both
+/// Mixing a type with itself returns its own parameters (to rounding), and k2 >= k1 (k2 >= 2 k1) of both
 /// types holds for the mixture too.
 /// \param[out] why  the reason if the two can not be mixed, else untouched
 /// \return whether they can

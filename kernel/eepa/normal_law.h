@@ -179,7 +179,9 @@ template <class ExponentPolicy> struct LinearLaw {
       const double unloading = s * c.k2 * (power - plastic_power);
       result.max_overlap = max_overlap;
       if (unloading < loading) {
-        if (unloading <= -pull) {
+        // a contact at rest on the adhesive branch stays there, whatever rounding says
+        const double rounding = 1e-14 * s * (c.k2 + c.k_adh) * power;
+        if (unloading <= rounding - pull) {
           result.branch = Branch::adhesive;
           spring = -pull;
           result.max_overlap = c.adhesive_memory * overlap;

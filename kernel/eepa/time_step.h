@@ -14,6 +14,10 @@ namespace eepa {
 constexpr double time_step_overlap_fraction = 0.05;
 
 /// Largest stiffness of a contact of size d, over its branches and directions [force/length].
+///
+/// Springs that turn a particle too are worth more than those that only push it: for a solid
+/// sphere the tangential one counts 7/2 fold, so that the default of 2/7 k1 is worth k1, and the
+/// rolling one 5/2 fold.
 /// \param c  coefficients of its pair of types
 /// \param size  d, as in Contact [length]
 EEPA_FUNCTION double largest_stiffness(const Coefficients &c, double size)
@@ -22,7 +26,10 @@ EEPA_FUNCTION double largest_stiffness(const Coefficients &c, double size)
   const double slope = c.exponent *
       std::pow(time_step_overlap_fraction * size * scale.inverse_size, c.exponent - 1.0);
   const double normal = (c.k2 > c.k_adh ? c.k2 : c.k_adh) * slope;
-  return scale.stiffness() * (normal > c.kt ? normal : c.kt);
+  const double tangential = 3.5 * c.kt;
+  const double rolling = 2.5 * c.kr;
+  const double largest = tangential > rolling ? tangential : rolling;
+  return scale.stiffness() * (normal > largest ? normal : largest);
 }
 
 /// Largest stable time step of a contact, 0.2 sqrt(m/k) (article, section 6).

@@ -54,8 +54,25 @@ TEST(NormalLinear, AdhesiveBranchBeginsAtItsBoundary)
   EXPECT_EQ(path.at(edge).branch, Branch::adhesive);
   EXPECT_EQ(path.at(edge).force, f0 - k_adh * edge);
   EXPECT_EQ(path.at(edge).max_overlap, top);    // nothing lowered yet
-  EXPECT_EQ(path.at(std::nextafter(edge, 1.0)).branch, Branch::unloading);
-  EXPECT_NEAR(path.at(std::nextafter(edge, 1.0)).force, path.at(edge).force, 1e-12);
+  // rounding alone does not leave the branch, 1e-12 does
+  EXPECT_EQ(path.at(std::nextafter(edge, 1.0)).branch, Branch::adhesive);
+  EXPECT_EQ(path.at(edge * (1.0 + 1e-12)).branch, Branch::unloading);
+  EXPECT_NEAR(path.at(edge * (1.0 + 1e-12)).force, path.at(edge).force, 1e-12);
+}
+
+// held at any overlap of the adhesive branch, a contact does not flicker to another
+TEST(NormalLinear, AdhesiveBranchHoldsAtRest)
+{
+  Random random(57);
+  for (int k = 0; k < 5000; k++) {
+    const Material m = any_material(random);
+    if (m.law.law != Law::linear) continue;
+    NormalPath path(m);
+    path.to(top);
+    const double down = random.uniform(0.01, 0.9) * top;
+    if (path.to(down).branch != Branch::adhesive) continue;
+    for (int step = 0; step < 3; step++) ASSERT_EQ(path.to(down).branch, Branch::adhesive);
+  }
 }
 
 // delta_p = (1 + k_adh/k2) delta on the adhesive branch; reloading leaves it along k2

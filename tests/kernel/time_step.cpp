@@ -25,7 +25,10 @@ TEST(TimeStep, LargestStiffnessOfAnyBranchAndDirection)
   EXPECT_DOUBLE_EQ(stiffness(m, 1e-3), 7e3);
   m.p.kt_given = true;
   m.p.kt = 9e3;
-  EXPECT_DOUBLE_EQ(stiffness(m, 1e-3), 9e3);
+  EXPECT_DOUBLE_EQ(stiffness(m, 1e-3), 3.5 * 9e3);    // it turns the spheres too
+  m.p.rolling = RollingModel::sds;
+  m.p.kr = 2e4;
+  EXPECT_DOUBLE_EQ(stiffness(m, 1e-3), 2.5 * 2e4);
 }
 
 TEST(TimeStep, StiffnessScalesWithSize)
@@ -35,7 +38,7 @@ TEST(TimeStep, StiffnessScalesWithSize)
   EXPECT_DOUBLE_EQ(stiffness(m, 4e-3), 12e3);
   m.p.kt_given = true;
   m.p.kt = 9e3;
-  EXPECT_DOUBLE_EQ(stiffness(m, 4e-3), 36e3);
+  EXPECT_DOUBLE_EQ(stiffness(m, 4e-3), 3.5 * 36e3);
 }
 
 // n != 1: the tangent n k delta^(n-1) at the documented overlap of 5% of the contact's size

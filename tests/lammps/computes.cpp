@@ -94,7 +94,7 @@ TEST(TimeStep, IsTheBoundOfTheContract)
   EXPECT_NEAR(simulation.compute("dt"), 0.2 * std::sqrt(mass_of(light) / 6e4), 1e-15);
   simulation("pair_style gran/eepa linear\npair_coeff * * 1e3 2e3 0 0 0 kt 7e4");
   simulation.run(0);
-  EXPECT_NEAR(simulation.compute("dt"), 0.2 * std::sqrt(mass_of(light) / 7e4), 1e-15);
+  EXPECT_NEAR(simulation.compute("dt"), 0.2 * std::sqrt(mass_of(light) / (3.5 * 7e4)), 1e-15);
   // and a stiffer wall
   simulation("fix wall all wall/gran/eepa linear coeff 1e4 1e6 0 0 0 wall zplane -2 NULL");
   simulation.run(0);

@@ -58,6 +58,7 @@ Course compress(const Balance &law, double fraction_of_bound)
   Packing packing;
   packing.side = 8;
   packing.spacing = 1.0;
+  packing.jitter = 0.01;
   packing.speed = 0.0;    // see LedgerStart
   const std::string wall = exact(packing.half());
   Simulation simulation;
@@ -134,6 +135,9 @@ TEST_P(CompressedPacking, KeepsTheSumOfAllEnergies)
 const Balance balances[] = {
     {"linear_sds", "linear", "1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling sds 2e3 1 0.1", 2e4},
     {"plateau_constant", "plateau", "1e4 2e4 5e3 0 0.3 restitution 0.7 rolling constant 0.05", 2e4},
+    // its time step's stiffness is the tangent at an overlap of 5% of d
+    {"exponent", "linear exponent 1.5", "1e5 2e5 5e4 0 0.3 kt 3e3 restitution 0.7 rolling sds 2e3 1 0.1",
+     6.7e4},
 };
 INSTANTIATE_TEST_SUITE_P(Laws, CompressedPacking, testing::ValuesIn(balances),
                          [](const auto &info) { return std::string(info.param.name); });
@@ -168,6 +172,86 @@ TEST(LedgerStart, GivenOverlapsThatPartAtOnceAreBooked)
     }
   }
 }
+
+/* ---------------------------------------------------------------------- the end of an impact */
+
+struct Impact {
+  const char *name, *style, *coefficients;
+  Vec3 v;          ///< of one sphere against another or a wall
+  double wall;     ///< velocity of the wall; no wall for 0
+  double most;     ///< of what may be missed
+};
+
+/// What the ledger misses in one impact, relative to its kinetic energy, mean over starts within a
+/// step: what is left after that is one-signed, and adds up over impacts.
+double missed(const Impact &impact, double time_step)
+{
+  constexpr int starts = 40;
+  double sum = 0.0, kinetic_start = 0.0;
+  for (int k = 0; k < starts; k++) {
+    const double gap = 0.01 + (k + 0.5) / starts * (impact.v.norm() - impact.wall) * time_step;
+    Simulation simulation;
+    simulation.open_box(4.0);
+    const std::string law = impact.style, coefficients = impact.coefficients;
+    const bool wall = impact.wall != 0.0;
+    simulation("pair_style gran/eepa " + law + "\npair_coeff * * " + coefficients +
+               "\nfix integrate all nve/sphere\ntimestep " + exact(time_step) +
+               "\ncompute ledger all gran/eepa/energy");
+    if (wall)
+      simulation("fix wall all wall/gran/eepa " + law + " coeff " + coefficients +
+                 " wall xplane NULL 0 velocity " + exact(impact.wall) + " 0 0");
+    std::vector<Sphere> spheres = {{Vec3(-0.5 - gap, 0, 0), impact.v}};
+    if (!wall) spheres.push_back({Vec3(0.5, 0, 0)});
+    simulation.create(spheres);
+    simulation.run(0);
+    const auto balance = [&] {
+      const auto e = simulation.compute_vector("ledger");
+      double kinetic = 0.0;
+      for (const auto &p : simulation.particles()) kinetic += p.kinetic_energy();
+      if (kinetic_start == 0.0) kinetic_start = kinetic;
+      return kinetic + elastic(e) + dissipated(e) - e[WALL_WORK];
+    };
+    const double before = balance();
+    simulation.run(static_cast<int>(0.08 / time_step));
+    EXPECT_EQ(elastic(simulation.compute_vector("ledger")), 0.0);
+    sum += balance() - before;
+  }
+  return sum / starts / kinetic_start;
+}
+
+class LedgerImpact : public testing::TestWithParam<Impact> {};
+
+// At half the bound and at a quarter. What a dashpot of the step before did is not remembered; that
+// cancels over an impact (see dissipation.h), but only to first order where the slider cuts the
+// tangential dashpot, and where for n != 1 the normal one fades in: 1.1e-3 and 2.2e-3.
+TEST_P(LedgerImpact, MissesLittleAndLessWithTheStep)
+{
+  const double half = missed(GetParam(), 7e-4), quarter = missed(GetParam(), 3.5e-4);
+  std::printf("%s: missed %.2e and %.2e of the kinetic energy\n", GetParam().name, half, quarter);
+  EXPECT_LT(std::fabs(half), GetParam().most);
+  EXPECT_LT(std::fabs(quarter), 0.65 * std::fabs(half) + 3e-5);
+}
+const Impact impacts[] = {
+    {"elastic", "linear", "1e4 1e4 0 0 0", Vec3(2, 0, 0), 0.0, 5e-4},
+    {"plastic", "linear", "1e4 2e4 5e3 0 0", Vec3(2, 0, 0), 0.0, 5e-4},
+    {"adhesive", "plateau", "1e4 2e4 5e3 0 0", Vec3(2, 0, 0), 0.0, 5e-4},
+    {"normal_dashpot", "linear", "1e4 2e4 0 0 0 viscous 16 0", Vec3(2, 0, 0), 0.0, 5e-4},
+    {"normal_dashpot_at_moving_wall", "linear", "1e4 2e4 0 0 0 viscous 16 0", 
+     Vec3(2, 0, 0), -0.5, 5e-4},
+    {"limit_damping", "linear limit_damping yes", "1e4 2e4 0 0 0 viscous 16 0", 
+     Vec3(2, 0, 0), 0.0, 5e-4},
+    {"exponent_dashpot", "linear exponent 1.5", "1e5 2e5 0 0 0 kt 0 restitution 0.7", 
+     Vec3(2, 0, 0), 0.0, 3e-3},
+    {"sliding", "linear", "1e4 2e4 0 0 0.3", Vec3(2, 2, 0), 0.0, 5e-4},
+    {"tangential_dashpot", "linear", "1e4 2e4 0 0 1e9 viscous 0 8", Vec3(2, 2, 0), 0.0, 5e-4},
+    {"sliding_tangential_dashpot", "linear", "1e4 2e4 0 0 0.3 viscous 0 8", 
+     Vec3(2, 2, 0), 0.0, 2e-3},
+    {"rolling_constant", "linear", "1e4 2e4 0 0 0.3 rolling constant 0.1", 
+     Vec3(2, 2, 0), -0.5, 5e-4},
+    {"rolling_sds", "linear", "1e4 2e4 0 0 0.3 rolling sds 2e3 2 0.1", Vec3(2, 2, 0), -0.5, 5e-4},
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, LedgerImpact, testing::ValuesIn(impacts),
+                         [](const auto &info) { return std::string(info.param.name); });
 
 /* ---------------------------------------------------------------------- one channel alone */
 

@@ -184,6 +184,32 @@ TEST(ParallelWalls, MoveParticlesAndAddUpForces)
   for (std::size_t k = 0; k < a.size(); k++) EXPECT_NEAR(a[k], b[k], 1e-9) << k;
 }
 
+// Particles that slide along walls through ranks and boundaries take their wall histories along,
+// and keep them when they are sorted.
+TEST(ParallelWalls, HistoryTravelsWithTheParticles)
+{
+  const Packing packing = drifting_packing();
+  auto spheres = packing.spheres();
+  for (auto &sphere : spheres) sphere.v += Vec3(20, -15, 0);
+  Simulation alone(MPI_COMM_SELF), together;
+  for (auto *simulation : {&alone, &together}) {
+    if (simulation == &together) {
+      (*simulation)("processors " + std::to_string(rank_count()) + " 1 1\natom_modify sort 20 1.0");
+    } else {
+      (*simulation)("atom_modify sort 0 0.0");
+    }
+    simulation->open_box(packing.half(), packing.types, "p p f");
+    simulation->create(spheres);
+    (*simulation)(std::string(linear) +
+                  "\nfix integrate all nve/sphere\ntimestep 2e-4\n"
+                  "fix z all wall/gran/eepa plateau coeff 1e4 2e4 5e3 -1 0.1 rolling sds 1e3 1 0.1 "
+                  "wall zplane -2.9 2.9");
+    simulation->run(300);
+  }
+  EXPECT_GT(alone.fix("z", 6), 30.0);
+  EXPECT_LT(difference(alone.particles(), together.particles()), 1e-10);
+}
+
 /// A communicator of the ranks below `count`; the others get MPI_COMM_NULL.
 MPI_Comm first_ranks(int count)
 {

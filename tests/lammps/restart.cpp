@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 using namespace eepa_test;
@@ -291,7 +292,7 @@ TEST(DataFile, KeepsThePairCoefficients)
     double largest = 0.0, worst = 0.0;
     for (std::size_t k = 0; k < a.size(); k++) {
       largest = std::max(largest, a[k].f.norm());
-      worst = std::max(worst, (a[k].f - b[k].f).norm());
+      worst = std::max({worst, (a[k].f - b[k].f).norm(), (a[k].torque - b[k].torque).norm()});
     }
     EXPECT_GT(largest, 1.0);
     EXPECT_LT(worst, 1e-9 * largest) << which;

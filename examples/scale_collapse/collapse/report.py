@@ -180,12 +180,13 @@ def text_table(rows: Sequence[Row], preload: float) -> str:
     text = ["  ".join(cell.rjust(width) for cell, width in zip(line, widths)).rstrip()
             for line in lines]
     text += ["",
-             "deviation   root mean square of the difference between the mean stress-strain curve",
-             "            and that of the smallest diameter, over their common strain range, in % of",
-             f"            the peak stress there; strain of the bulk, from {preload / 1e3:g} kPa; ± is",
-             "            the standard error that the scatter of the seeds leaves",
+             "deviation   root mean square difference between the mean stress-strain curve and",
+             "            that of the smallest diameter, over their common strain range, in %",
+             "            of the peak stress there; "
+             f"strain of the bulk, from {preload / 1e3:g} kPa;",
+             "            ± is the standard error that the scatter of the seeds leaves",
              "by platens  the same with the strain of the specimen, platen layers and all",
-             "loading     loop time of LAMMPS at equal strain; speed-up from the smallest diameter"]
+             "loading     loop time of LAMMPS at equal strain; speed-up from the smallest one"]
     largest = max(row.inertial_number for row in rows)
     if math.isfinite(largest):
         text += ["", f"The largest inertial number is {largest:.1e}, of the largest diameter at "
@@ -223,8 +224,8 @@ def plot(groups: Sequence[Group], path: Path, law: str, preload: float,
     for axis in axes.flat:
         axis.grid(alpha=0.25, linewidth=0.5)
         axis.tick_params(labelleft=True)
-    figure.suptitle(f"Confined compression, law {law}: loading (lines) and unloading (dashed), mean "
-                    f"over seeds\nwith its standard error; strain from {preload / 1e3:g} kPa",
+    figure.suptitle(f"Confined compression, law {law}: loading (lines) and unloading (dashed), "
+                    f"mean over seeds\nwith its standard error; strain from {preload / 1e3:g} kPa",
                     fontsize=11)
     figure.savefig(path, dpi=130)
     plt.close(figure)

@@ -228,7 +228,8 @@ def _failure(active: _Active, folder: Path) -> str:
     command = " ".join(map(str, active.process.args)).replace(str(active.folder), str(folder))
     return "\n".join([f"run {active.case.name} failed with status {active.process.returncode}; "
                       f"its log is {folder / LOG} and ends", ""]
-                     + [f"    {line}" for line in ending] + ["", f"It was started by\n    {command}"])
+                     + [f"    {line}" for line in ending]
+                     + ["", f"It was started by\n    {command}"])
 
 
 def _up_to_error(lines: List[str]) -> List[str]:

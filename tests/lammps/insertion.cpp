@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// Particles that appear and go in mid-run: a new one has no history, wherever it is put, and those
+// that stay keep theirs. On 1, 2 and 4 ranks.
+
+#include "packing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+using namespace eepa_test;
+
+namespace {
+
+constexpr const char *coefficients = "1e4 4e4 5e3 -1 0.5 restitution 0.7 rolling sds 1e3 1 0.1";
+
+/// A packing on two walls that has loaded and unloaded.
+void open(Simulation &simulation, const std::string &newton)
+{
+  Packing packing;
+  packing.side = 5;
+  packing.speed = 2.0;
+  simulation.open_box(packing.half() + 0.5, 1, "f f f", newton);
+  simulation.create(packing.spheres());
+  const std::string wall = exact(packing.half());
+  simulation(std::string("pair_style gran/eepa linear\npair_coeff * * ") + coefficients +
+             "\nfix integrate all nve/sphere\ntimestep 2e-4");
+  for (const std::string plane : {"xplane", "yplane", "zplane"})
+    simulation("fix " + plane + " all wall/gran/eepa linear coeff " + coefficients + " wall " +
+               plane + " -" + wall + " " + wall + " contacts");
+  simulation.watch_contacts();
+}
+
+typedef std::map<std::pair<int, int>, PairContact> Contacts;
+Contacts by_pair(const Simulation &simulation)
+{
+  Contacts found;
+  for (const auto &c : simulation.contacts()) found.insert({std::minmax(c.i, c.j), c});
+  return found;
+}
+
+class ParallelReplacement : public testing::TestWithParam<const char *> {};
+
+// Every third particle is taken away and another one is put where it was.
+TEST_P(ParallelReplacement, GivesVirginContactsAndKeepsTheOthers)
+{
+  Simulation simulation;
+  open(simulation, GetParam());
+  simulation.run(150);
+  simulation.run(0);
+  const auto before = simulation.particles();
+  const auto contacts_before = by_pair(simulation);
+  int worn = 0;
+  for (const auto &[ids, c] : contacts_before) worn += c.max_overlap() > 1.01 * c.overlap();
+  EXPECT_GT(worn, 50);
+  std::map<int, std::vector<double>> walls_before;
+  for (const auto &p : before) walls_before[p.id] = simulation.fix_row("xplane", p.id);
+
+  simulation("group gone id 1:125:3\ndelete_atoms group gone compress no");
+  std::map<int, int> place;    // of a new particle: the one that was there
+  int id = 125;
+  for (const auto &p : before) {
+    if (p.id % 3 != 1) continue;
+    const std::string x = exact(p.x.x()) + " " + exact(p.x.y()) + " " + exact(p.x.z());
+    simulation("create_atoms 1 single " + x + " units box");
+    place[++id] = p.id;
+  }
+  simulation("group new id > 125\nset group new diameter 1\nset group new density " +
+             exact(unit_density));
+  simulation.run(0);
+  int virgin = 0, kept = 0;
+  for (const auto &[ids, c] : by_pair(simulation)) {
+    const bool fresh = ids.second > 125;
+    if (fresh) {
+      EXPECT_EQ(c.max_overlap(), c.overlap()) << ids.first << " " << ids.second;
+      EXPECT_EQ(c.branch(), 1.0);
+      EXPECT_EQ(c.p[12], 0.0);    // tangential and rolling spring
+      EXPECT_EQ(c.p[13], 0.0);
+      virgin++;
+    } else {
+      const auto &old = contacts_before.at(ids);
+      EXPECT_EQ(c.max_overlap(), old.max_overlap());
+      EXPECT_EQ(c.p[12], old.p[12]);
+      EXPECT_EQ(c.p[13], old.p[13]);
+      kept++;
+    }
+  }
+  EXPECT_GT(virgin, 50);
+  EXPECT_GT(kept, 50);
+  int at_wall = 0, walls_worn = 0;
+  for (const auto &p : simulation.particles()) {
+    const auto row = simulation.fix_row("xplane", p.id);
+    ASSERT_EQ(row.size(), 11u);
+    if (p.id > 125 && row[0] > 0.0) {
+      EXPECT_EQ(row[8], row[7]);    // delta_max and delta
+      EXPECT_EQ(row[9], 1.0);
+      const auto &old = walls_before.at(place.at(p.id));
+      walls_worn += old[0] > 0.0 && old[8] > 1.01 * old[7];
+      at_wall++;
+    } else if (p.id <= 125) {
+      EXPECT_EQ(row[8], walls_before.at(p.id)[8]);
+    }
+  }
+  EXPECT_GT(at_wall, 3);
+  EXPECT_GT(walls_worn, 1);
+  simulation.run(50);
+  EXPECT_EQ(simulation.particles().size(), 125u);
+}
+INSTANTIATE_TEST_SUITE_P(Newton, ParallelReplacement, testing::Values("on", "off"));
+
+// What goes takes its contacts with it: those that stay move as if their neighbours had been taken
+// out by hand between two runs.
+class ParallelInsertion : public testing::TestWithParam<const char *> {
+ protected:
+  static std::vector<Particle> rain(MPI_Comm comm, const std::string &newton,
+                                    const std::string &inserting, int *highest)
+  {
+    Simulation simulation(comm);
+    simulation.open_box(3.0, 1, "p p f", newton);
+    Packing packing;
+    packing.side = 4;
+    packing.spacing = 1.2;
+    packing.speed = 1.0;
+    auto spheres = packing.spheres();
+    for (auto &s : spheres) s.x.z() -= 0.6;
+    simulation.create(spheres);
+    simulation(std::string("pair_style gran/eepa linear\npair_coeff * * ") + coefficients +
+               "\nfix integrate all nve/sphere\nfix gravity all gravity 30 vector 0 0 -1\n"
+               "timestep 5e-4\nfix floor all wall/gran/eepa linear coeff " +
+               coefficients + " wall zplane -3 3 contacts\n" + inserting);
+    simulation.watch_contacts();
+    *highest = 0;
+    for (int k = 0; k < 4; k++) {
+      simulation.run(200);
+      for (const auto &p : simulation.particles()) {
+        *highest = std::max(*highest, p.id);
+        EXPECT_TRUE(p.x.allFinite() && p.v.allFinite() && p.omega.allFinite());
+      }
+      for (const auto &c : simulation.contacts()) EXPECT_GE(c.max_overlap(), c.overlap() * (1 - 1e-12));
+    }
+    EXPECT_GT(simulation.contacts().size(), 10u);
+    return simulation.particles();
+  }
+  void same_on_all_ranks(const std::string &inserting, int least)
+  {
+    int highest = 0, again = 0;
+    const auto a = rain(MPI_COMM_SELF, "on", inserting, &highest);
+    const auto b = rain(MPI_COMM_WORLD, GetParam(), inserting, &again);
+    EXPECT_EQ(highest, again);
+    EXPECT_GE(highest, least);
+    EXPECT_LT(difference(a, b), 1e-8);
+  }
+};
+
+TEST_P(ParallelInsertion, FixPour)
+{
+  same_on_all_ranks("region slab block -2.9 2.9 -2.9 2.9 1.2 2.9\n"
+                    "fix pour all pour 40 1 4767 region slab diam one 1.0 dens 1.9098593171027443 "
+                    "1.9098593171027443 vol 0.3 60",
+                    84);
+}
+
+TEST_P(ParallelInsertion, FixDeposit)
+{
+  same_on_all_ranks("region slab block -2.9 2.9 -2.9 2.9 1.8 2.4\n"
+                    "fix deposit all deposit 30 1 20 4767 region slab near 1.05 attempt 200 vz -2 -1 "
+                    "units box",
+                    80);
+}
+
+// Evaporation chooses by rank, so that only one's own run is looked at; wall and pair histories of
+// those that stay must go along when others leave their places in the arrays.
+TEST_P(ParallelInsertion, FixEvaporateAndDeposit)
+{
+  int highest = 0;
+  const auto end =
+      rain(MPI_COMM_WORLD, GetParam(),
+           "region low block -3 3 -3 3 -3 -1\nregion slab block -2.9 2.9 -2.9 2.9 1.8 2.4\n"
+           "fix evaporate all evaporate 40 2 low 49892\n"
+           "fix deposit all deposit 40 1 15 4767 region slab near 1.05 attempt 200 vz -2 -1 units "
+           "box",
+           &highest);
+  EXPECT_GT(highest, 80);
+  EXPECT_LT(end.size(), static_cast<std::size_t>(highest));
+  std::set<int> ids;
+  for (const auto &p : end) ids.insert(p.id);
+  EXPECT_EQ(ids.size(), end.size());
+}
+INSTANTIATE_TEST_SUITE_P(Newton, ParallelInsertion, testing::Values("on", "off"));
+
+// Without particles of the kind that pour brings, the neighbour cutoff must reach for them.
+TEST(Insertion, OfTheFirstParticlesIsSeen)
+{
+  Simulation simulation;
+  simulation.open_box(3.0, 1, "p p f");
+  simulation(std::string("pair_style gran/eepa linear\npair_coeff * * ") + coefficients +
+             "\nfix integrate all nve/sphere\nfix gravity all gravity 30 vector 0 0 -1\n"
+             "timestep 5e-4\nfix floor all wall/gran/eepa linear coeff " +
+             coefficients +
+             " wall zplane -3 NULL\nregion slab block -2.9 2.9 -2.9 2.9 1.2 2.9\n"
+             "fix pour all pour 60 1 4767 region slab diam one 1.0 dens 1.9098593171027443 "
+             "1.9098593171027443 vol 0.3 60");
+  simulation.watch_contacts();
+  simulation.run(1200);
+  EXPECT_EQ(simulation.particles().size(), 60u);
+  const auto contacts = simulation.contacts();
+  EXPECT_GT(contacts.size(), 30u);
+  for (const auto &c : contacts) EXPECT_LT(c.overlap(), 0.2);
+}
+
+}    // namespace
