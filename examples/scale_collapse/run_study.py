@@ -50,6 +50,8 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
     parser.add_argument("--seeds", type=int, nargs="+", metavar="N", default=[],
                         help="packings of each diameter: one number for all or one for each "
                              "(default: 2 of the smallest, more of the coarser ones)")
+    parser.add_argument("--first-seed", type=int, default=1, metavar="S",
+                        help="seeds are S, S + 1, ...: other packings for an independent check")
     parser.add_argument("--law", choices=LAWS, default="linear", help="contact law")
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--scaled", action="store_true", help="only the scaled runs")
@@ -94,7 +96,7 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
         if arguments.full:
             arguments.seeds = [2 * count for count in arguments.seeds]
         arguments.cases = make_cases(arguments.diameters, arguments.seeds, arguments.law,
-                                     arguments.modes, arguments.dref)
+                                     arguments.modes, arguments.dref, arguments.first_seed)
     except ValueError as error:
         parser.error(str(error))
     arguments.out = (arguments.out or build_folder() / "scale_collapse").resolve()
@@ -110,7 +112,7 @@ def collect(arguments: argparse.Namespace) -> List[report.Group]:
             group = report.Group(diameter, mode, [], [],
                                  Case(diameter, scaled, arguments.law, 1, arguments.dref)
                                  .inertial_number(arguments.preload))
-            for seed in range(1, count + 1):
+            for seed in range(arguments.first_seed, arguments.first_seed + count):
                 case = Case(diameter, scaled, arguments.law, seed, arguments.dref)
                 folder = folder_of(arguments.out, case)
                 group.curves.append(load_curve(folder / CURVE, arguments.preload))

@@ -53,21 +53,24 @@ TEST_P(BlowUp, AtAWallNamesTheAtom)
   simulation.open_box(3.0);
   simulation.create({{Vec3(0, 0, -1)}, {Vec3(1.5, 0, 0.501), Vec3(0, 0, -8)}});
   // only the second one is in the fix's group
-  simulation("group falling id 2\npair_style zero 1.0\npair_coeff * *\nfix w falling wall/gran/eepa " +
-             std::string(GetParam()).replace(std::string(GetParam()).find('\n'), 15, " coeff ") +
-             " wall zplane 0 NULL\nfix integrate all nve/sphere\ntimestep 0.1\n"
-             "thermo_style custom step ke f_w[3]\nthermo 1");
-  EXPECT_TRUE(refuses(simulation, "run 50",
-                      "fix w wall/gran/eepa: atom 2 overlaps the wall by [0-9.]+ at step [0-9]+, more "
-                      "than its radius 0.5: the time step is too large"));
+  simulation(
+      "group falling id 2\npair_style zero 1.0\npair_coeff * *\nfix w falling wall/gran/eepa " +
+      std::string(GetParam()).replace(std::string(GetParam()).find('\n'), 15, " coeff ") +
+      " wall zplane 0 NULL\nfix integrate all nve/sphere\ntimestep 0.1\n"
+      "thermo_style custom step ke f_w[3]\nthermo 1");
+  EXPECT_TRUE(
+      refuses(simulation, "run 50",
+              "fix w wall/gran/eepa: atom 2 overlaps the wall by [0-9.]+ at step [0-9]+, more "
+              "than its radius 0.5: the time step is too large"));
   expect_no_nan(log.text());
 }
 INSTANTIATE_TEST_SUITE_P(
     Laws, BlowUp,
-    testing::Values("linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.5",
-                    "plateau\npair_coeff * * 1e4 2e4 5e3 -1 0.5 viscous 5 5 rolling constant 0.1",
-                    "linear exponent 1.5\npair_coeff * * 1e5 2e5 5e4 0 0.5 kt 3e3 rolling sds 1e3 1 "
-                    "0.1"));
+    testing::Values(
+        "linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.5",
+        "plateau\npair_coeff * * 1e4 2e4 5e3 -1 0.5 viscous 5 5 rolling constant 0.1",
+        "linear exponent 1.5\npair_coeff * * 1e5 2e5 5e4 0 0.5 kt 3e3 rolling sds 1e3 1 "
+        "0.1"));
 
 // A start with a particle in another: in the set-up already, with both names. Of different sizes:
 // the smaller radius counts.
@@ -75,7 +78,8 @@ TEST(OverlapBeyondARadius, IsNamedBeforeAnyStep)
 {
   Simulation simulation;
   simulation.open_box(3.0);
-  simulation.create({{Vec3(2, 2, 2)}, {Vec3(0, 0, 0)}, {Vec3(0.54, 0, 0), Vec3::Zero(), Vec3::Zero(), 0.2}});
+  simulation.create(
+      {{Vec3(2, 2, 2)}, {Vec3(0, 0, 0)}, {Vec3(0.54, 0, 0), Vec3::Zero(), Vec3::Zero(), 0.2}});
   simulation("pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 0 0 0\ntimestep 1e-4\n"
              "fix integrate all nve/sphere\nrun 0 post no\nset atom 3 x 0.49");
   const std::string message = error_of(simulation, "run 10");
@@ -108,9 +112,10 @@ class OtherFormat : public testing::Test {
     Simulation original;
     original.open_box(4.0);
     original.create({{Vec3(0, 0, 0.49)}, {Vec3(0.99, 0, 0.49)}});
-    original("pair_style gran/eepa plateau exponent 1 scale 0.625\npair_coeff 1 1 1e4 4e4 5e3 -1 0.5\n"
-             "fix integrate all nve/sphere\ntimestep 0.0001220703125\n" +
-             std::string(wall));
+    original(
+        "pair_style gran/eepa plateau exponent 1 scale 0.625\npair_coeff 1 1 1e4 4e4 5e3 -1 0.5\n"
+        "fix integrate all nve/sphere\ntimestep 0.0001220703125\n" +
+        std::string(wall));
     original.run(16);
     original("write_restart " + file.name());
   }
@@ -136,16 +141,18 @@ TEST_F(OtherFormat, OfTheWallIsRefusedByName)
   // format, values a particle, displacement
   patch(1.0, {4.0, 0.0, 0.0, 16 * 0.0625 * 0.0001220703125}, 9.0);
   Simulation restarted;
-  EXPECT_TRUE(refuses(restarted, "read_restart " + file.name() + "\n" + box + wall,
-                      "fix wall wall/gran/eepa: the restart file has format 9, this version reads 1"));
+  EXPECT_TRUE(
+      refuses(restarted, "read_restart " + file.name() + "\n" + box + wall,
+              "fix wall wall/gran/eepa: the restart file has format 9, this version reads 1"));
 }
 
 TEST_F(OtherFormat, UnchangedIsRead)
 {
   write();
   Simulation restarted;
-  EXPECT_EQ(error_of(restarted, "read_restart " + file.name() + "\n" + box + wall +
-                                    "\nfix integrate all nve/sphere\nrun 1"),
+  EXPECT_EQ(error_of(restarted,
+                     "read_restart " + file.name() + "\n" + box + wall +
+                         "\nfix integrate all nve/sphere\nrun 1"),
             "");
 }
 

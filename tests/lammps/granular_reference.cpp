@@ -20,7 +20,7 @@ namespace {
 struct Model {
   const char *name;
   double mu;
-  bool dashpot;           ///< in the contact; LAMMPS's friction bound has it, this project's has not
+  bool dashpot;    ///< in the contact; LAMMPS's friction bound has it, this project's has not
   const char *rolling;    ///< "" or the mu_r of sds
   bool rolling_dashpot;
   double speed;    ///< of approach of each
@@ -39,16 +39,17 @@ std::vector<Particle> collide(const Model &model, double k, bool own)
   simulation.create({{Vec3(-0.5005, 0, 0), Vec3(model.speed, 0, 0) + model.shift, model.spin},
                      {Vec3(0.5005, 0, 0), Vec3(-model.speed, 0, 0), Vec3::Zero()}});
   if (own) {
-    simulation("pair_style gran/eepa linear\npair_coeff * * " + exact(k) + " " + exact(k) +
-               " 0 0 " + exact(mu) + " kt " + exact(kt) + " viscous " + exact(bn) + " " +
-               exact(bt) +
-               (rolling ? " rolling sds " + exact(kr) + " " + exact(gr) + " " + model.rolling : ""));
+    simulation(
+        "pair_style gran/eepa linear\npair_coeff * * " + exact(k) + " " + exact(k) + " 0 0 " +
+        exact(mu) + " kt " + exact(kt) + " viscous " + exact(bn) + " " + exact(bt) +
+        (rolling ? " rolling sds " + exact(kr) + " " + exact(gr) + " " + model.rolling : ""));
   } else {
     // damping velocity: the coefficient is B itself; that of the tangent is a multiple of it
-    simulation("pair_style granular\npair_coeff * * hooke " + exact(k) + " " + exact(bn) +
-               " damping velocity tangential linear_history " + exact(kt) + " " +
-               exact(model.dashpot ? bt / bn : 0.0) + " " + exact(mu) +
-               (rolling ? " rolling sds " + exact(kr) + " " + exact(gr) + " " + model.rolling : ""));
+    simulation(
+        "pair_style granular\npair_coeff * * hooke " + exact(k) + " " + exact(bn) +
+        " damping velocity tangential linear_history " + exact(kt) + " " +
+        exact(model.dashpot ? bt / bn : 0.0) + " " + exact(mu) +
+        (rolling ? " rolling sds " + exact(kr) + " " + exact(gr) + " " + model.rolling : ""));
   }
   // a contact lasts pi sqrt(m*/k); 4000 steps for it and the way
   const double contact = pi * std::sqrt(0.5 / k) + 0.001 / (2.0 * model.speed);
@@ -76,7 +77,8 @@ TEST_P(GranularCollision, IsThatOfLammpsUpToTheLeverArm)
   for (int n = 0; n < 3; n++) {
     const double k = 1e4 * std::pow(100.0, n);
     const auto reference = collide(model, k, false), own = collide(model, k, true);
-    EXPECT_GT((reference[0].v - Vec3(model.speed, 0, 0) - model.shift).norm(), 0.5);    // it did collide
+    EXPECT_GT((reference[0].v - Vec3(model.speed, 0, 0) - model.shift).norm(),
+              0.5);    // it did collide
     by_stiffness[n] = deviation(reference, own);
     const double overlap = 2.0 * model.speed * std::sqrt(0.5 / k);
     EXPECT_LT(by_stiffness[n], 2.0 * overlap / 0.5) << k;
@@ -95,7 +97,9 @@ const Model models[] = {
     {"rolling_damped", 0.4, false, "0.1", true, 1.0, Vec3(0, 0.3, 0), Vec3(0, 1, 3)},
 };
 INSTANTIATE_TEST_SUITE_P(Models, GranularCollision, testing::ValuesIn(models),
-                         [](const auto &info) { return std::string(info.param.name); });
+                         [](const auto &info) {
+                           return std::string(info.param.name);
+                         });
 
 // Central collisions have no arm: the same motion to rounding.
 TEST(GranularReference, CentralCollisionIsTheSameToRounding)

@@ -140,7 +140,8 @@ class ParallelInsertion : public testing::TestWithParam<const char *> {
         *highest = std::max(*highest, p.id);
         EXPECT_TRUE(p.x.allFinite() && p.v.allFinite() && p.omega.allFinite());
       }
-      for (const auto &c : simulation.contacts()) EXPECT_GE(c.max_overlap(), c.overlap() * (1 - 1e-12));
+      for (const auto &c : simulation.contacts())
+        EXPECT_GE(c.max_overlap(), c.overlap() * (1 - 1e-12));
     }
     EXPECT_GT(simulation.contacts().size(), 10u);
     return simulation.particles();
@@ -166,10 +167,11 @@ TEST_P(ParallelInsertion, FixPour)
 
 TEST_P(ParallelInsertion, FixDeposit)
 {
-  same_on_all_ranks("region slab block -2.9 2.9 -2.9 2.9 1.8 2.4\n"
-                    "fix deposit all deposit 30 1 20 4767 region slab near 1.05 attempt 200 vz -2 -1 "
-                    "units box",
-                    80);
+  same_on_all_ranks(
+      "region slab block -2.9 2.9 -2.9 2.9 1.8 2.4\n"
+      "fix deposit all deposit 30 1 20 4767 region slab near 1.05 attempt 200 vz -2 -1 "
+      "units box",
+      80);
 }
 
 // Evaporation chooses by rank, so that only one's own run is looked at; wall and pair histories of

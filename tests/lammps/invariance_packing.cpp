@@ -26,7 +26,8 @@ struct Law {
 const Law laws[] = {
     {"linear", "linear", "1e4 2e4 5e3 -1 0.5 restitution 0.8"},
     {"plateau", "plateau limit_damping yes", "1e4 2e4 5e3 -1 0.5 viscous 1 1 rolling constant 0.1"},
-    {"exponent", "linear exponent 1.5", "1e5 2e5 5e4 -1 0.5 kt 3e3 restitution 0.8 rolling sds 1e3 1 0.1"},
+    {"exponent", "linear exponent 1.5",
+     "1e5 2e5 5e4 -1 0.5 kt 3e3 restitution 0.8 rolling sds 1e3 1 0.1"},
 };
 std::string pair(const Law &law, const std::string &scale = "")
 {
@@ -39,8 +40,8 @@ struct Setting {
   std::string before;    ///< commands before the box
   std::string box = "block";
   std::string newton = "on";
-  std::string after;     ///< commands after the particles
-  std::string pair;      ///< in place of the plain pair commands
+  std::string after;    ///< commands after the particles
+  std::string pair;     ///< in place of the plain pair commands
   std::function<void(std::vector<Sphere> &)> change;
   MPI_Comm comm = MPI_COMM_WORLD;
 };
@@ -165,10 +166,16 @@ TEST_P(ParallelInvariance, VelocityOfTheFrame)
 
 TEST_P(ParallelInvariance, NinetyDegrees)
 {
-  const auto turn = [](const Vec3 &v) { return Vec3(-v.y(), v.x(), v.z()); };
-  const auto swap = [](const Vec3 &v) { return Vec3(v.y(), v.z(), v.x()); };
+  const auto turn = [](const Vec3 &v) {
+    return Vec3(-v.y(), v.x(), v.z());
+  };
+  const auto swap = [](const Vec3 &v) {
+    return Vec3(v.y(), v.z(), v.x());
+  };
   for (const bool cyclic : {false, true}) {
-    const auto rotate = [&](const Vec3 &v) -> Vec3 { return cyclic ? swap(v) : turn(v); };
+    const auto rotate = [&](const Vec3 &v) -> Vec3 {
+      return cyclic ? swap(v) : turn(v);
+    };
     Setting setting;
     setting.change = [&](std::vector<Sphere> &spheres) {
       for (auto &s : spheres) {
@@ -188,7 +195,8 @@ TEST_P(ParallelInvariance, PlaceInThePeriodicBox)
 {
   // by a box length, which wraps to the same place, and by parts of one
   const double length = 2.0 * the_packing().half();
-  for (const Vec3 &shift : {Vec3(length, -length, 0), Vec3(0.3 * length, 0.5 * length, -0.77 * length)}) {
+  for (const Vec3 &shift :
+       {Vec3(length, -length, 0), Vec3(0.3 * length, 0.5 * length, -0.77 * length)}) {
     Setting setting;
     setting.change = [&](std::vector<Sphere> &spheres) {
       for (auto &s : spheres) {
@@ -216,7 +224,8 @@ TEST_P(ParallelInvariance, NeighborSkinAndRebuilds)
   const auto expected = reference();
   for (const char *after :
        {"neighbor 0.02 bin", "neighbor 0.5 bin", "neighbor 0.1 nsq",
-        "neigh_modify every 1 delay 0 check no", "neighbor 0.3 bin\nneigh_modify every 3 delay 6 check yes",
+        "neigh_modify every 1 delay 0 check no",
+        "neighbor 0.3 bin\nneigh_modify every 3 delay 6 check yes",
         "neighbor 0.4 bin\nneigh_modify every 20 delay 0 check no", "atom_modify sort 7 0.6"}) {
     Setting setting;
     setting.after = after;
@@ -256,7 +265,8 @@ TEST_P(ParallelInvariance, Hybrid)
   const auto expected = reference();
   Setting setting;
   const std::string coefficients = law.coefficients, style = law.style;
-  setting.pair = "pair_style hybrid gran/eepa " + style + "\npair_coeff * * gran/eepa " + coefficients;
+  setting.pair =
+      "pair_style hybrid gran/eepa " + style + "\npair_coeff * * gran/eepa " + coefficients;
   expect_same(expected, motion(law, setting), "hybrid");
   setting.pair = "pair_style hybrid/overlay zero 1.0 gran/eepa " + style +
       "\npair_coeff * * zero\npair_coeff * * gran/eepa " + coefficients;
@@ -275,7 +285,7 @@ TEST_P(ParallelInvariance, DeformedTriclinicBox)
 {
   const double length = 2.0 * the_packing().half();
   const std::string near_flip = "change_box all xy final " + exact(0.45 * length) + "\n";
-  for (const std::string deform :
+  for (const std::string &deform :
        {near_flip + "fix deform all deform 1 xy erate 3 remap v flip yes",
         std::string("fix deform all deform 1 x scale 0.99 yz erate -2 xz vel 1 remap v")}) {
     Setting alone, together;
@@ -332,7 +342,8 @@ TEST_P(ParallelInvariance, Scale)
   report("1.7", worst);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, ParallelInvariance, testing::ValuesIn(laws),
-                         [](const auto &info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Laws, ParallelInvariance, testing::ValuesIn(laws), [](const auto &info) {
+  return std::string(info.param.name);
+});
 
 }    // namespace

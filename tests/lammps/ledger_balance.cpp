@@ -136,11 +136,13 @@ const Balance balances[] = {
     {"linear_sds", "linear", "1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling sds 2e3 1 0.1", 2e4},
     {"plateau_constant", "plateau", "1e4 2e4 5e3 0 0.3 restitution 0.7 rolling constant 0.05", 2e4},
     // its time step's stiffness is the tangent at an overlap of 5% of d
-    {"exponent", "linear exponent 1.5", "1e5 2e5 5e4 0 0.3 kt 3e3 restitution 0.7 rolling sds 2e3 1 0.1",
-     6.7e4},
+    {"exponent", "linear exponent 1.5",
+     "1e5 2e5 5e4 0 0.3 kt 3e3 restitution 0.7 rolling sds 2e3 1 0.1", 6.7e4},
 };
 INSTANTIATE_TEST_SUITE_P(Laws, CompressedPacking, testing::ValuesIn(balances),
-                         [](const auto &info) { return std::string(info.param.name); });
+                         [](const auto &info) {
+                           return std::string(info.param.name);
+                         });
 
 /* ---------------------------------------------------------------------- the first step */
 
@@ -177,9 +179,9 @@ TEST(LedgerStart, GivenOverlapsThatPartAtOnceAreBooked)
 
 struct Impact {
   const char *name, *style, *coefficients;
-  Vec3 v;          ///< of one sphere against another or a wall
-  double wall;     ///< velocity of the wall; no wall for 0
-  double most;     ///< of what may be missed
+  Vec3 v;         ///< of one sphere against another or a wall
+  double wall;    ///< velocity of the wall; no wall for 0
+  double most;    ///< of what may be missed
 };
 
 /// What the ledger misses in one impact, relative to its kinetic energy, mean over starts within a
@@ -237,22 +239,23 @@ const Impact impacts[] = {
     {"plastic", "linear", "1e4 2e4 5e3 0 0", Vec3(2, 0, 0), 0.0, 5e-4},
     {"adhesive", "plateau", "1e4 2e4 5e3 0 0", Vec3(2, 0, 0), 0.0, 5e-4},
     {"normal_dashpot", "linear", "1e4 2e4 0 0 0 viscous 16 0", Vec3(2, 0, 0), 0.0, 5e-4},
-    {"normal_dashpot_at_moving_wall", "linear", "1e4 2e4 0 0 0 viscous 16 0", 
-     Vec3(2, 0, 0), -0.5, 5e-4},
-    {"limit_damping", "linear limit_damping yes", "1e4 2e4 0 0 0 viscous 16 0", 
-     Vec3(2, 0, 0), 0.0, 5e-4},
-    {"exponent_dashpot", "linear exponent 1.5", "1e5 2e5 0 0 0 kt 0 restitution 0.7", 
-     Vec3(2, 0, 0), 0.0, 3e-3},
+    {"normal_dashpot_at_moving_wall", "linear", "1e4 2e4 0 0 0 viscous 16 0", Vec3(2, 0, 0), -0.5,
+     5e-4},
+    {"limit_damping", "linear limit_damping yes", "1e4 2e4 0 0 0 viscous 16 0", Vec3(2, 0, 0), 0.0,
+     5e-4},
+    {"exponent_dashpot", "linear exponent 1.5", "1e5 2e5 0 0 0 kt 0 restitution 0.7", Vec3(2, 0, 0),
+     0.0, 3e-3},
     {"sliding", "linear", "1e4 2e4 0 0 0.3", Vec3(2, 2, 0), 0.0, 5e-4},
     {"tangential_dashpot", "linear", "1e4 2e4 0 0 1e9 viscous 0 8", Vec3(2, 2, 0), 0.0, 5e-4},
-    {"sliding_tangential_dashpot", "linear", "1e4 2e4 0 0 0.3 viscous 0 8", 
-     Vec3(2, 2, 0), 0.0, 2e-3},
-    {"rolling_constant", "linear", "1e4 2e4 0 0 0.3 rolling constant 0.1", 
-     Vec3(2, 2, 0), -0.5, 4e-3},
+    {"sliding_tangential_dashpot", "linear", "1e4 2e4 0 0 0.3 viscous 0 8", Vec3(2, 2, 0), 0.0,
+     2e-3},
+    {"rolling_constant", "linear", "1e4 2e4 0 0 0.3 rolling constant 0.1", Vec3(2, 2, 0), -0.5,
+     4e-3},
     {"rolling_sds", "linear", "1e4 2e4 0 0 0.3 rolling sds 2e3 2 0.1", Vec3(2, 2, 0), -0.5, 5e-4},
 };
-INSTANTIATE_TEST_SUITE_P(Kinds, LedgerImpact, testing::ValuesIn(impacts),
-                         [](const auto &info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Kinds, LedgerImpact, testing::ValuesIn(impacts), [](const auto &info) {
+  return std::string(info.param.name);
+});
 
 /* ---------------------------------------------------------------------- one channel alone */
 
@@ -261,8 +264,7 @@ std::vector<double> head_on(const std::string &law, double *lost = nullptr)
 {
   Simulation simulation;
   simulation.open_box(3.0);
-  simulation.create(
-      {{Vec3(-0.501, 0, 0), Vec3(1, 0, 0)}, {Vec3(0.501, 0, 0), Vec3(-1, 0, 0)}});
+  simulation.create({{Vec3(-0.501, 0, 0), Vec3(1, 0, 0)}, {Vec3(0.501, 0, 0), Vec3(-1, 0, 0)}});
   simulation("pair_style gran/eepa " + law +
              "\nfix integrate all nve/sphere\ntimestep 1e-5\ncompute ledger all gran/eepa/energy");
   simulation.run(6000);
@@ -276,9 +278,9 @@ std::vector<double> head_on(const std::string &law, double *lost = nullptr)
 
 TEST(LedgerChannel, ElasticContactDissipatesNothing)
 {
-  for (const char *law : {"linear\npair_coeff * * 1e4 1e4 0 0 0",
-                          "linear\npair_coeff * * 1e4 1e4 0 -5 0.5",
-                          "linear exponent 1.5\npair_coeff * * 1e5 1e5 0 0 0.5 kt 1e4"}) {
+  for (const char *law :
+       {"linear\npair_coeff * * 1e4 1e4 0 0 0", "linear\npair_coeff * * 1e4 1e4 0 -5 0.5",
+        "linear exponent 1.5\npair_coeff * * 1e5 1e5 0 0 0.5 kt 1e4"}) {
     double lost;
     const auto e = head_on(law, &lost);
     EXPECT_LT(std::fabs(dissipated(e)), 1e-13) << law;
@@ -295,9 +297,9 @@ TEST(LedgerChannel, HysteresisTakesWhatAPlasticImpactLoses)
   EXPECT_NEAR(lost, 0.75, 1e-3);
   e[HYSTERESIS] = 0.0;
   EXPECT_EQ(dissipated(e), 0.0);
-  for (const char *law : {"linear\npair_coeff * * 1e4 2e4 5e3 0 0.5",
-                          "plateau\npair_coeff * * 1e4 2e4 5e3 0 0.5",
-                          "linear exponent 1.5\npair_coeff * * 1e5 2e5 2e4 0 0 kt 0"}) {
+  for (const char *law :
+       {"linear\npair_coeff * * 1e4 2e4 5e3 0 0.5", "plateau\npair_coeff * * 1e4 2e4 5e3 0 0.5",
+        "linear exponent 1.5\npair_coeff * * 1e5 2e5 2e4 0 0 kt 0"}) {
     e = head_on(law, &lost);
     EXPECT_GT(lost, 0.2) << law;
     EXPECT_NEAR(e[HYSTERESIS], lost, 1e-3 * lost) << law;
@@ -309,16 +311,16 @@ TEST(LedgerChannel, NormalDashpotTakesOneMinusESquared)
 {
   for (const double restitution : {0.9, 0.5, 0.2}) {
     double lost;
-    auto e = head_on("linear\npair_coeff * * 1e4 1e4 0 0 0 restitution " + exact(restitution),
-                     &lost);
+    auto e =
+        head_on("linear\npair_coeff * * 1e4 1e4 0 0 0 restitution " + exact(restitution), &lost);
     EXPECT_NEAR(e[NORMAL_DASHPOT], 1.0 - restitution * restitution, 1e-3);
     EXPECT_NEAR(e[NORMAL_DASHPOT], lost, 1e-3);
     e[NORMAL_DASHPOT] = 0.0;
     EXPECT_LT(std::fabs(dissipated(e)), 1e-13);
   }
   double lost;
-  const auto e = head_on("linear limit_damping yes\npair_coeff * * 1e4 1e4 0 0 0 restitution 0.2",
-                         &lost);
+  const auto e =
+      head_on("linear limit_damping yes\npair_coeff * * 1e4 1e4 0 0 0 restitution 0.2", &lost);
   EXPECT_NEAR(e[NORMAL_DASHPOT], lost, 1e-3);
 }
 
@@ -516,9 +518,7 @@ TEST_P(ParallelLedger, ChangesNothingByBeingThere)
       if (kept) simulation("compute ledger all gran/eepa/energy");
       simulation.run(250);
       end[kept] = simulation.particles();
-      if (kept) {
-        EXPECT_GT(dissipated(simulation.compute_vector("ledger")), 5.0);
-      }
+      if (kept) { EXPECT_GT(dissipated(simulation.compute_vector("ledger")), 5.0); }
     }
     ASSERT_EQ(end[0].size(), 125u);
     int same = 0;

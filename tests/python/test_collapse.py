@@ -149,6 +149,10 @@ class Cases(unittest.TestCase):
         self.assertEqual(len(some), 1 + 2 * 2)
         self.assertEqual([c for c in some if not c.scaled and c.diameter == 1.0e-3], [])
 
+    def test_seeds_count_from_the_first(self):
+        some = cases.make_cases([2.0e-3], [3], "linear", ["scaled"], first_seed=101)
+        self.assertEqual([101, 102, 103], sorted(case.seed for case in some))
+
     def test_longest_first(self):
         some = cases.make_cases([2.0e-3, 1.0e-3, 1.5e-3], [], "linear", cases.MODES)
         self.assertEqual(some[0].diameter, 1.0e-3)

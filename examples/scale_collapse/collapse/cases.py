@@ -115,7 +115,7 @@ def seeds_per_diameter(diameters: Sequence[float], given: Sequence[int]) -> List
 
 
 def make_cases(diameters: Sequence[float], seeds: Sequence[int], law: str, modes: Sequence[str],
-               reference_diameter: float = 1.0e-3) -> List[Case]:
+               reference_diameter: float = 1.0e-3, first_seed: int = 1) -> List[Case]:
     """Every run of the study, the longest first, so that the last to end are short ones.
 
     At the reference diameter there is nothing to scale, so one run serves both modes.
@@ -127,7 +127,7 @@ def make_cases(diameters: Sequence[float], seeds: Sequence[int], law: str, modes
         for mode in modes:
             if mode not in MODES:
                 raise ValueError(f"mode is {mode!r}, allowed are {' and '.join(MODES)}")
-            for seed in range(1, count + 1):
+            for seed in range(first_seed, first_seed + count):
                 cases.append(Case(diameter, is_scaled(diameter, mode, reference_diameter), law,
                                   seed, reference_diameter))
     unique = list(dict.fromkeys(cases))

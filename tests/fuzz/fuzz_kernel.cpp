@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// Any bytes as a law, its parameters and the life of one contact, through evaluate(). Stiffness
+// over 12 decades, restitution 0 to 1, exponent 1 to 2, size ratios to 100, every rolling model.
+// libFuzzer calls this; replay.cpp does where there is none.
+
+#include <eepa/eepa.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <type_traits>
+
+namespace {
+
+using namespace eepa;
+
+#define REQUIRE(condition, value, limit)                                                        \
+  do {                                                                                          \
+    if (!(condition)) {                                                                         \
+      std::fprintf(stderr, "%s:%d: violated: %s (%.17g, %.17g)\n", __FILE__, __LINE__, #condition, \
+                   static_cast<double>(value), static_cast<double>(limit));                     \
+      std::abort();                                                                             \
+    }                                                                                           \
+  } while (false)
+
+/// Numbers out of bytes; zeros when they are used up.
+class Bytes {
+ public:
+  Bytes(const std::uint8_t *data, std::size_t size) : data_(data), left_(size) {}
+  bool empty() const { return left_ == 0; }
+  unsigned next()
+  {
+    if (left_ == 0) return 0;
+    --left_;
+    return *data_++;
+  }
+  /// in [0, 1], both ends included
+  double unit()
+  {
+    const unsigned high = next();
+    return (high * 256 + next()) / 65535.0;
+  }
+  double between(double low, double high) { return low + (high - low) * unit(); }
+  /// evenly over decades
+  double decades(double low, double high) { return std::pow(10.0, between(low, high)); }
+  /// 0 a quarter of the time
+  double zero_or_decades(double low, double high)
+  {
+    return next() % 4 == 0 ? 0.0 : decades(low, high);
+  }
+  Vec3 vector(double magnitude)
+  {
+    const double x = between(-magnitude, magnitude), y = between(-magnitude, magnitude);
+    return Vec3(x, y, between(-magnitude, magnitude));
+  }
+
+ private:
+  const std::uint8_t *data_;
+  std::size_t left_;
+};
+
+bool finite(const Vec3 &v)
+{
+  return v.allFinite();
+}
+
+template <class ContactLaw>
+void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
+{
+  constexpr bool springs = ContactLaw::Rolling::has_spring;
+  constexpr bool has_rolling = ContactLaw::has_rolling;
+  const Coefficients c = resolve(p, settings);
+
+  const double radius = bytes.decades(-5, 1);
+  const bool wall = bytes.next() % 3 == 0;
+  const double other_radius = wall ? INFINITY : radius * bytes.decades(-2, 2);
+  const double smaller = std::min(radius, other_radius);
+  const double density = bytes.decades(0, 4);
+  const auto mass = [&](double r) { return 4.0 / 3.0 * M_PI * density * r * r * r; };
+
+  Contact contact;
+  contact.size = wall ? 2.0 * radius : radius + other_radius;
+  contact.effective_mass = effective_mass(mass(radius), wall ? INFINITY : mass(other_radius));
+  contact.effective_radius = effective_radius(radius, other_radius);
+  REQUIRE(contact.effective_mass > 0.0 && contact.effective_mass <= mass(smaller) * (1 + 1e-12),
+          contact.effective_mass, mass(smaller));
+
+  // a fraction of the contact's own time, up to ten times too large a step
+  const Scale scale = contact_scale(c, contact.size);
+  const double time_step =
+      std::sqrt(contact.effective_mass / (scale.stiffness() * c.k2)) * bytes.decades(-4, 1);
+  const double speed = smaller / time_step * bytes.decades(-8, -1);
+  const double reach = smaller * bytes.decades(-6, 0);
+
+  std::array<double, SIZE_WITH_ROLLING> stored{};
+  double overlap = 0.0;
+  bool first = true;
+  for (int step = 0; step < 200 && !bytes.empty(); ++step) {
+    contact.normal = bytes.vector(1.0);
+    if (!(contact.normal.norm() > 1e-3)) contact.normal = Vec3(0, 0, 1);
+    contact.normal.normalize();
+    contact.velocity = bytes.vector(speed);
+    contact.spin = bytes.vector(speed);
+    contact.angular_velocity = bytes.vector(speed / smaller);
+    if (bytes.next() % 8 != 0) overlap = reach * bytes.unit();    // else: at rest
+    if (!(overlap > 0.0)) {
+      const History last = load_history<springs>(stored.data());
+      const Dissipation lost = dissipation_of_opening<ContactLaw>(c, contact, time_step, last);
+      REQUIRE(std::isfinite(lost.total()), lost.total(), 0);
+      stored.fill(0.0);
+      first = true;
+      continue;
+    }
+    contact.overlap = overlap;
+
+    const History before = load_history<springs>(stored.data());
+    History history = before;
+    const Response r =
+        ContactLaw::evaluate(c, settings.limit_damping, contact, time_step, history);
+
+    REQUIRE(std::isfinite(r.normal_force), r.normal_force, 0);
+    REQUIRE(std::isfinite(r.hysteretic_force), r.hysteretic_force, 0);
+    REQUIRE(finite(r.tangential_force), r.tangential_force.norm(), 0);
+    REQUIRE(std::isfinite(history.max_overlap), history.max_overlap, 0);
+    REQUIRE(finite(history.tangential_spring), history.tangential_spring.norm(), 0);
+    REQUIRE(finite(history.rolling_spring), history.rolling_spring.norm(), 0);
+    REQUIRE(std::isfinite(r.friction_bound) && r.friction_bound >= 0.0, r.friction_bound, 0);
+    REQUIRE(r.tangential_force.norm() <= r.friction_bound * (1 + 1e-12) + 1e-150,
+            r.tangential_force.norm(), r.friction_bound);
+    REQUIRE(history.max_overlap >= overlap, history.max_overlap, overlap);
+    if (settings.limit_damping)
+      REQUIRE(r.normal_force >= std::min(r.hysteretic_force, 0.0), r.normal_force,
+              r.hysteretic_force);
+    if constexpr (has_rolling) {
+      REQUIRE(finite(r.rolling_torque), r.rolling_torque.norm(), 0);
+      const double limit = p.mu_r * std::fabs(r.hysteretic_force) * contact.effective_radius;
+      REQUIRE(r.rolling_torque.norm() <= limit * (1 + 1e-12) + 1e-150, r.rolling_torque.norm(),
+              limit);
+    }
+    const StoredEnergy energy = ContactLaw::stored_energy(c, contact.size, overlap, history);
+    REQUIRE(std::isfinite(energy.total()), energy.total(), 0);
+    REQUIRE(energy.tangential >= 0.0 && energy.rolling >= 0.0, energy.tangential, energy.rolling);
+    if (settings.law == Law::linear && p.f0 == 0.0)
+      REQUIRE(energy.normal >= 0.0, energy.normal, 0);
+
+    // i and j changed places, the stored numbers with their signs turned as LAMMPS does
+    Contact swapped = contact;
+    swapped.normal = -contact.normal;
+    swapped.velocity = -contact.velocity;
+    swapped.angular_velocity = -contact.angular_velocity;
+    std::array<double, SIZE_WITH_ROLLING> turned;
+    std::transform(stored.begin(), stored.end(), turned.begin(), [](double x) { return -x; });
+    History other = load_history<springs>(turned.data());
+    const Response o = ContactLaw::evaluate(c, settings.limit_damping, swapped, time_step, other);
+    REQUIRE(o.normal_force == r.normal_force, o.normal_force, r.normal_force);
+    REQUIRE(o.tangential_force == -r.tangential_force, o.tangential_force.norm(),
+            r.tangential_force.norm());
+    REQUIRE(o.branch == r.branch && o.sliding == r.sliding, o.sliding, r.sliding);
+    if constexpr (has_rolling)
+      REQUIRE(o.rolling_torque == -r.rolling_torque, o.rolling_torque.norm(),
+              r.rolling_torque.norm());
+    REQUIRE(other.max_overlap == history.max_overlap, other.max_overlap, history.max_overlap);
+    REQUIRE(other.tangential_spring == -history.tangential_spring, other.tangential_spring.norm(),
+            history.tangential_spring.norm());
+    REQUIRE(other.rolling_spring == -history.rolling_spring, other.rolling_spring.norm(),
+            history.rolling_spring.norm());
+
+    // A slider that jumps by more than its bound's worth in one step is booked by a trapezoid
+    // that is negative by up to k displacement^2 / 8.
+    const Dissipation lost = dissipation_of_step<ContactLaw>(c, contact, r, time_step, first,
+                                                             before, history);
+    const double normal_velocity = contact.velocity.dot(contact.normal);
+    const double moved = time_step * tangential_velocity(contact, normal_velocity).norm();
+    const double rolled = time_step * contact.effective_radius * contact.angular_velocity.norm();
+    const double kt = scale.stiffness() * c.kt, kr = scale.stiffness() * c.kr;
+    const double round_t = 1e-12 * kt * std::pow(before.tangential_spring.norm() + moved, 2);
+    const double round_r = 1e-12 * kr * std::pow(before.rolling_spring.norm() + rolled, 2);
+    const double round_d = 1e-12 * r.tangential_force.norm() * moved + round_t;
+    REQUIRE(std::isfinite(lost.total()), lost.total(), 0);
+    REQUIRE(lost.hysteresis >= 0.0, lost.hysteresis, 0);
+    REQUIRE(lost.normal_dashpot >=
+                -1e-12 * time_step * std::fabs(normal_velocity * r.hysteretic_force),
+            lost.normal_dashpot, r.hysteretic_force);
+    REQUIRE(lost.tangential_dashpot >= -round_d - kt * moved * moved, lost.tangential_dashpot,
+            round_d);
+    REQUIRE(lost.sliding >= -round_t - kt * moved * moved, lost.sliding, round_t);
+    REQUIRE(lost.rolling >= -round_r - kr * rolled * rolled, lost.rolling, round_r);
+
+    store_history<springs>(history, stored.data());
+    first = false;
+  }
+}
+
+}    // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
+{
+  Bytes bytes(data, size);
+  LawSettings s;
+  Parameters p;
+  s.law = bytes.next() % 2 == 0 ? Law::plateau : Law::linear;
+  if (s.law == Law::linear && bytes.next() % 2 == 0) s.exponent = bytes.between(1.0, 2.0);
+  s.limit_damping = bytes.next() % 2 == 0;
+  s.scaled = bytes.next() % 2 == 0;
+  if (s.scaled) s.reference_diameter = bytes.decades(-5, 1);
+
+  p.k1 = bytes.decades(-2, 10);
+  const unsigned ratio = bytes.next() % 4;
+  p.k2 = ratio == 0 ? p.k1 : ratio == 1 ? 2.0 * p.k1 : p.k1 * bytes.decades(0, 4);
+  if (s.law == Law::plateau && p.k2 < 2.0 * p.k1) p.k2 = 2.0 * p.k1;
+  p.k_adh = p.k1 * bytes.zero_or_decades(-6, 3);
+  p.f0 = -bytes.zero_or_decades(-8, 4);
+  p.mu = bytes.zero_or_decades(-4, 1);
+  p.kt_given = s.exponent != 1.0 || bytes.next() % 2 == 0;
+  if (p.kt_given) p.kt = p.k1 * bytes.zero_or_decades(-6, 2);
+  if (bytes.next() % 4 == 0) {
+    p.damping = Damping::viscous;
+    p.viscous_normal = bytes.zero_or_decades(-6, 4);
+    p.viscous_tangential = bytes.zero_or_decades(-6, 4);
+  } else {
+    p.restitution = bytes.unit();
+  }
+  const std::array<RollingModel, 3> models{RollingModel::none, RollingModel::constant,
+                                           RollingModel::sds};
+  p.rolling = models[bytes.next() % 3];
+  if (p.rolling != RollingModel::none) p.mu_r = bytes.zero_or_decades(-4, 1);
+  if (p.rolling == RollingModel::sds) {
+    p.kr = p.k1 * bytes.zero_or_decades(-6, 2);
+    p.rolling_viscous = bytes.zero_or_decades(-6, 4);
+  }
+
+  const Findings found = validate(s);
+  REQUIRE(found.errors.empty(), found.errors.size(), 0);
+  const Findings findings = validate(p, s);
+  REQUIRE(findings.errors.empty(), findings.errors.size(), 0);
+  with_law(s, p.rolling, [&](auto law) { live<std::decay_t<decltype(law)>>(bytes, p, s); });
+  return 0;
+}
