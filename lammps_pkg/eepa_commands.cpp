@@ -105,6 +105,15 @@ namespace {
     }
   }
 
+  /// An enumerator that a restart file stored; a cast of any other number is undefined.
+  template <class Enum> Enum enumerator(double stored, Enum last, const char *what)
+  {
+    for (int k = 0; k <= static_cast<int>(last); k++)
+      if (stored == k) return static_cast<Enum>(k);
+    refuse(std::string("the restart file is damaged: ") + what + " " + std::to_string(stored) +
+           " is unknown");
+  }
+
   std::string exact(double value)
   {
     char text[32];
@@ -232,12 +241,12 @@ StyleArguments unpack_style(const std::array<double, packed_style_size> &n)
     refuse("the restart file has format " + exact(n[0]) + " of gran/eepa, this version reads " +
            exact(restart_format));
   StyleArguments style;
-  style.settings.law = n[1] == static_cast<double>(Law::plateau) ? Law::plateau : Law::linear;
+  style.settings.law = enumerator(n[1], Law::linear, "law");
   style.settings.exponent = n[2];
   style.settings.scaled = n[3] != 0.0;
   style.settings.reference_diameter = n[4];
   style.settings.limit_damping = n[5] != 0.0;
-  style.time_step_check = static_cast<TimeStepCheck>(static_cast<int>(n[6]));
+  style.time_step_check = enumerator(n[6], TimeStepCheck::error, "dtcheck");
   return style;
 }
 
@@ -270,11 +279,11 @@ Parameters unpack_parameters(const std::array<double, packed_parameters_size> &n
   p.mu = n[4];
   p.kt_given = n[5] != 0.0;
   p.kt = n[6];
-  p.damping = static_cast<Damping>(static_cast<int>(n[7]));
+  p.damping = enumerator(n[7], Damping::viscous, "damping");
   p.restitution = n[8];
   p.viscous_normal = n[9];
   p.viscous_tangential = n[10];
-  p.rolling = static_cast<RollingModel>(static_cast<int>(n[11]));
+  p.rolling = enumerator(n[11], RollingModel::sds, "rolling model");
   p.mu_r = n[12];
   p.kr = n[13];
   p.rolling_viscous = n[14];

@@ -58,7 +58,8 @@ constexpr std::size_t packed_parameters_size = 15;
 std::array<double, packed_style_size> pack(const StyleArguments &style);
 std::array<double, packed_parameters_size> pack(const Parameters &parameters);
 
-/// \throw std::invalid_argument when another version of this package wrote them
+/// \throw std::invalid_argument when another version of this package wrote them, or they are
+/// damaged
 StyleArguments unpack_style(const std::array<double, packed_style_size> &numbers);
 Parameters unpack_parameters(const std::array<double, packed_parameters_size> &numbers);
 

@@ -76,6 +76,11 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
   lost.sliding =
       detail::slip_loss(stiffness, rotate_into_plane(before.tangential_spring, contact.normal),
                         after.tangential_spring, time_step * velocity);
+  if (lost.tangential_dashpot < 0.0) {
+    // the slider let go of a spring that outweighed the dashpot: its part of the slip
+    lost.sliding += lost.tangential_dashpot;
+    lost.tangential_dashpot = 0.0;
+  }
 
   if constexpr (ContactLaw::has_rolling) {
     // torque . (omega_i - omega_j) is the power of either model

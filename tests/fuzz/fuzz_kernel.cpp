@@ -178,7 +178,13 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     const double rolled = time_step * contact.effective_radius * contact.angular_velocity.norm();
     const double kt = scale.stiffness() * c.kt, kr = scale.stiffness() * c.kr;
     const double round_t = 1e-12 * kt * std::pow(before.tangential_spring.norm() + moved, 2);
-    const double round_r = 1e-12 * kr * std::pow(before.rolling_spring.norm() + rolled, 2);
+    double round_r = 1e-12 * kr * std::pow(before.rolling_spring.norm() + rolled, 2);
+    // where the spin is parallel to the normal, what rolls is a rounding error along the normal
+    const double slope = ContactLaw::Normal::Exponent::slope(overlap, c, scale);
+    const double most_viscous =
+        0.4 * std::sqrt(contact.effective_mass * scale.stiffness() * c.k1 * slope) +
+        scale.force() * c.rolling_viscous;
+    if (time_step > 0.0) round_r += 1e-12 * most_viscous * rolled * rolled / time_step;
     const double round_d = 1e-12 * r.tangential_force.norm() * moved + round_t;
     REQUIRE(std::isfinite(lost.total()), lost.total(), 0);
     REQUIRE(lost.hysteresis >= 0.0, lost.hysteresis, 0);

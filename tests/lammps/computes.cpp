@@ -88,7 +88,7 @@ TEST(TimeStep, IsTheBoundOfTheContract)
              "pair_coeff 1 2 1e4 4e4 1e3 0 0\npair_coeff 2 2 1e4 1e4 0 0 0");
   simulation.run(0);
   EXPECT_NEAR(simulation.compute("dt"), 0.2 * std::sqrt(mass_of(light) / 1e5), 1e-15);
-  // k_adh and kt count too
+  // k_adh counts too, and kt 7/2 fold: it turns a solid sphere as well as pushing it
   simulation("pair_style gran/eepa linear\npair_coeff * * 1e3 2e3 6e4 0 0");
   simulation.run(0);
   EXPECT_NEAR(simulation.compute("dt"), 0.2 * std::sqrt(mass_of(light) / 6e4), 1e-15);
@@ -99,6 +99,17 @@ TEST(TimeStep, IsTheBoundOfTheContract)
   simulation("fix wall all wall/gran/eepa linear coeff 1e4 1e6 0 0 0 wall zplane -2 NULL");
   simulation.run(0);
   EXPECT_NEAR(simulation.compute("dt"), 0.2 * std::sqrt(mass_of(light) / 1e6), 1e-15);
+}
+
+TEST(TimeStep, CountsTheRollingSpringFiveHalvesFold)
+{
+  Simulation simulation;
+  simulation.open_box(4.0);
+  simulation.create({{Vec3(0, 0, 0)}, {Vec3(2, 0, 0)}});
+  simulation("pair_style gran/eepa linear\npair_coeff * * 1e3 2e3 0 0 0 rolling sds 8e4 0 0.1\n"
+             "compute dt all gran/eepa/dt\nfix integrate all nve/sphere\ntimestep 1e-5\n"
+             "run 0 post no");
+  EXPECT_NEAR(simulation.compute("dt"), 0.2 * std::sqrt(1.0 / (2.5 * 8e4)), 1e-15);
 }
 
 class TimeStepCheck : public testing::Test {

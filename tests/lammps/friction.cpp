@@ -179,6 +179,29 @@ TEST(Sliding, SphereEndsUpRollingAtFiveSeventhsOfItsVelocity)
   }
 }
 
+// B_t is B_n with kt in the place of k1: sqrt(4 m* kt/(1 + (pi/ln e)^2)). In a set-up call no spring
+// is wound, and with friction without bound the dashpot is all that acts in the tangent plane.
+TEST(TangentialDashpot, IsThatOfTheRestitutionWithTheTangentialStiffness)
+{
+  const double e = 0.4, kt = 3e3, v = 0.7;
+  const double factor = std::sqrt(4.0 * kt / (1.0 + std::pow(pi / std::log(e), 2)));
+  for (const std::string exponent : {"", " exponent 1.5"}) {
+    Simulation pair, wall;
+    const std::string coefficients = "1e5 1e5 0 0 1e9 kt 3e3 restitution 0.4";
+    pair.open_box(3.0);
+    pair.create({{Vec3(0, 0, 0)}, {Vec3(0, 0, 0.99), Vec3(v, 0, 0)}});
+    pair("pair_style gran/eepa linear" + exponent + "\npair_coeff 1 1 " + coefficients +
+         "\nfix integrate all nve/sphere\ntimestep 1e-5\nrun 0 post no");
+    EXPECT_NEAR(pair.particle(2).f.x(), -std::sqrt(0.5) * factor * v, 1e-9);
+    wall.open_box(3.0);
+    wall.create({{Vec3(0, 0, 0.49), Vec3(v, 0, 0)}});
+    wall("pair_style zero 1.0\npair_coeff * *\nfix integrate all nve/sphere\ntimestep 1e-5\n"
+         "fix wall all wall/gran/eepa linear" +
+         exponent + " coeff " + coefficients + " wall zplane 0 NULL\nrun 0 post no");
+    EXPECT_NEAR(wall.particle(1).f.x(), -factor * v, 1e-9);
+  }
+}
+
 // The dashpot does not count in the friction bound: a sphere dropped with a large normal dashpot
 // has |f_t| <= mu f_hys even in the moment of impact, where f_hys = 0.
 TEST(Sliding, BoundHoldsTheHystereticForceNotTheDashpot)

@@ -1,0 +1,138 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-2.0-only
+# Checks that take too long, or tools too many, for ctest. Each ends with one line of figures.
+#
+#   hardening.sh fuzz [SECONDS]   libFuzzer on the parser and on the kernel, SECONDS each (300)
+#   hardening.sh sanitizers       every test with address and undefined-behaviour sanitizers
+#   hardening.sh valgrind         memcheck on tests/fuzz/in.valgrind
+#   hardening.sh fpe              the same in-file with floating-point exceptions trapped
+#
+# EEPA_LMP: the lmp to use (build/lmp). EEPA_HARDENING_DIR: working folder (build-hardening).
+set -eu
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+work=${EEPA_HARDENING_DIR:-$root/build-hardening}
+lmp=${EEPA_LMP:-$root/build/lmp}
+input=$root/tests/fuzz/in.valgrind
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
+mkdir -p "$work"
+
+die() {
+    echo "hardening.sh: $*" >&2
+    exit 2
+}
+need() {
+    command -v "$1" >/dev/null || die "$1 is missing: apt-get install $2"
+}
+need_lmp() {
+    [ -x "$lmp" ] || die "$lmp does not exist: build first, or set EEPA_LMP"
+}
+
+fuzz() {
+    seconds=${1:-300}
+    need clang++ "clang libclang-rt-14-dev"
+    cmake -S "$root" -B "$work/fuzz" -D CMAKE_CXX_COMPILER=clang++ -D EEPA_WITH_LAMMPS=OFF \
+        -D EEPA_FUZZ=ON -D CMAKE_BUILD_TYPE=RelWithDebInfo >"$work/fuzz.configure.log"
+    cmake --build "$work/fuzz" --target fuzz_parser fuzz_kernel >"$work/fuzz.build.log" ||
+        die "see $work/fuzz.build.log"
+    line="fuzz:" status=0
+    for name in parser kernel; do
+        mkdir -p "$work/corpus_$name"
+        log=$work/fuzz_$name.log
+        "$work/fuzz/fuzz_$name" -max_total_time="$seconds" -max_len=1500 -print_final_stats=1 \
+            -artifact_prefix="$work/$name-" "$work/corpus_$name" \
+            "$root/tests/fuzz/corpus_$name" >"$log" 2>&1 && found=0 || found=1
+        if [ $found -ne 0 ]; then
+            status=1
+            grep -E 'violated|runtime error|ERROR|Test unit' "$log" >&2 || tail "$log" >&2
+        fi
+        runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+        edges=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -n 1)
+        line="$line $name ${runs:-?} executions, ${edges:-?} edges, $found findings;"
+    done
+    echo "$line"
+    return $status
+}
+
+sanitizers() {
+    cmake -S "$root" --preset sanitize -B "$work/sanitize" >"$work/sanitize.configure.log"
+    cmake --build "$work/sanitize" >"$work/sanitize.build.log" ||
+        die "see $work/sanitize.build.log"
+    status=0
+    ctest --test-dir "$work/sanitize" --output-on-failure >"$work/sanitize.log" 2>&1 || status=1
+    [ $status -eq 0 ] || grep -E 'runtime error|ERROR: |Failed|Timeout' "$work/sanitize.log" >&2 || true
+    reports=$(grep -cE 'runtime error:|ERROR: (Address|Leak)Sanitizer' "$work/sanitize.log" || true)
+    echo "sanitizers: $reports reports; $(grep 'tests passed' "$work/sanitize.log" || echo 'no summary')"
+    return $status
+}
+
+valgrind_() {
+    need valgrind valgrind
+    need_lmp
+    supp=
+    for prefix in /usr /usr/local /opt/homebrew; do
+        if [ -f "$prefix/share/openmpi/openmpi-valgrind.supp" ]; then
+            supp=--suppressions=$prefix/share/openmpi/openmpi-valgrind.supp
+        fi
+    done
+    xml=$work/valgrind.xml
+    rm -f "$xml"
+    status=0
+    # --error-exitcode would count what LAMMPS and MPI do; the frames below tell whose it is
+    # shellcheck disable=SC2086  # no suppression file is no argument
+    valgrind --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
+        --num-callers=40 --child-silent-after-fork=yes --xml=yes --xml-file="$xml" $supp \
+        "$lmp" -in "$input" -var steps 60 -log none >"$work/valgrind.log" 2>&1 || status=1
+    [ $status -eq 0 ] || tail -n 5 "$work/valgrind.log" >&2
+    python3 - "$xml" <<'PYTHON' || status=1
+import sys
+import xml.etree.ElementTree as tree
+errors = tree.parse(sys.argv[1]).getroot().findall("error")
+def ours(frame):
+    text = " ".join(filter(None, (frame.findtext(k) for k in ("obj", "fn", "file"))))
+    return "eepaplugin" in text or "eepa" in (frame.findtext("fn") or "").lower()
+mine = [e for e in errors if any(ours(f) for f in e.iter("frame"))]
+for e in mine:
+    what = e.findtext("what") or e.findtext("xwhat/text")
+    print(what, "<-", [f.findtext("fn") for f in e.iter("frame")][:6], file=sys.stderr)
+print(f"valgrind: {len(mine)} errors with frames of this package, {len(errors) - len(mine)} of others")
+sys.exit(bool(mine))
+PYTHON
+    return $status
+}
+
+fpe() {
+    need_lmp
+    cat >"$work/fpe.c" <<'C'
+#define _GNU_SOURCE
+#include <fenv.h>
+__attribute__((constructor)) static void trap(void)
+{
+  feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+}
+C
+    cc -shared -fPIC -o "$work/fpe.so" "$work/fpe.c" -lm
+    passed=0 runs=0
+    for rolling in none "constant 0.1" "sds 1e6 1e3 0.1"; do
+        runs=$((runs + 1))
+        if LD_PRELOAD=$work/fpe.so "$lmp" -in "$input" -var steps 2000 -var rolling "$rolling" \
+            -log none >"$work/fpe.$runs.log" 2>&1; then
+            passed=$((passed + 1))
+        else
+            tail -n 15 "$work/fpe.$runs.log" >&2
+        fi
+    done
+    echo "fpe: $passed of $runs runs of 2000 steps raised no division by zero, invalid or overflow"
+    [ $passed -eq $runs ]
+}
+
+case ${1:-} in
+fuzz) fuzz "${2:-300}" ;;
+sanitizers) sanitizers ;;
+valgrind) valgrind_ ;;
+fpe) fpe ;;
+*)
+    sed -n '3,11s/^# \{0,1\}//p' "$0" >&2
+    exit 2
+    ;;
+esac
