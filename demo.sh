@@ -4,6 +4,6 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export BUILD_DIR=${BUILD_DIR:-$root/build}
-"$root/scripts/setup.sh"
+TARGETS=lmp "$root/scripts/setup.sh"
 python=$(sh "$root/scripts/find_python.sh")
 exec "$python" "$root/examples/scale_collapse/run_study.py" "$@"

@@ -58,4 +58,6 @@ fi
 generator=(-G Ninja)
 [ ! -f "$build/CMakeCache.txt" ] || generator=()
 cmake -S "$root" -B "$build" "${generator[@]}" "$@"
-cmake --build "$build"
+# TARGETS: what to build, everything if empty; a study needs no tests.
+# shellcheck disable=SC2086
+cmake --build "$build" ${TARGETS:+--target $TARGETS}
