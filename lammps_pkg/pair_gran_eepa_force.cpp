@@ -268,10 +268,13 @@ template <class ContactLaw>
 double PairGranEepa::single_contact(const eepa::Coefficients &c, const eepa::Contact &contact,
                                     eepa::History &history, double &normal_force)
 {
+  // the energies are those of the springs as the last step left them: an evaluation with the
+  // velocities of the end of the step could let a sliding contact slip once more
+  const eepa::History stored = history;
   const eepa::Response evaluated =
       ContactLaw::evaluate(c, style.settings.limit_damping, contact, 0.0, history);
-  const eepa::StoredEnergy energy =
-      ContactLaw::stored_energy(c, contact.size, contact.overlap, history);
+  const eepa::StoredEnergy energy = ContactLaw::stored_energy(
+      c, contact.size, contact.overlap, stored.max_overlap > 0.0 ? stored : history);
   normal_force = evaluated.normal_force;
   svector[BRANCH] = static_cast<int>(evaluated.branch);
   svector[OVERLAP] = contact.overlap;
