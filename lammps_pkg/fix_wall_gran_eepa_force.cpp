@@ -131,8 +131,9 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
 
     for (int surface = 0; surface < n_surfaces; surface++) {
       double *values = history[i] + static_cast<std::ptrdiff_t>(surface) * ContactLaw::history_size;
-      const SurfacePoint point = surfaces.nearest(surface, x[i], radius[i]);
       const bool known = values[eepa::MAX_OVERLAP] != 0.0;
+      if (!known && !surfaces.reaches(surface, x[i], radius[i])) continue;
+      const SurfacePoint point = surfaces.nearest(surface, x[i], radius[i]);
       if (point.overlap <= 0.0 && !known) continue;
 
       contact.normal = point.normal;

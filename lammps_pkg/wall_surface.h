@@ -42,6 +42,16 @@ class WallSurfaces {
   }
   double normal_velocity() const { return is_plane() ? velocity[axis()] : 0.0; }
 
+  /// Whether nearest() would find an overlap: for the many particles that are nowhere near.
+  bool reaches(int surface, const double *x, double particle_radius) const
+  {
+    if (!is_plane()) return true;
+    const int dim = axis();
+    const double distance = has_lo && surface == 0 ? x[dim] - (lo + displacement[dim])
+                                                   : (hi + displacement[dim]) - x[dim];
+    return distance < particle_radius;
+  }
+
   /// \param surface  0 .. count() - 1
   /// \param x  centre of a particle of radius `particle_radius`
   SurfacePoint nearest(int surface, const double *x, double particle_radius) const
