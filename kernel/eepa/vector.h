@@ -24,9 +24,15 @@ using Vec3 = Eigen::Vector3d;
 EEPA_FUNCTION Vec3 rotate_into_plane(const Vec3 &spring, const Vec3 &normal)
 {
   const double length_squared = spring.squaredNorm();
-  const Vec3 projected = spring - spring.dot(normal) * normal;
+  // below the smallest normal number a direction is meaningless, and so is the spring
+  if (!(length_squared > 2.3e-308)) return Vec3::Zero();
+  const double along = spring.dot(normal);
+  const Vec3 projected = spring - along * normal;
+  // from one step to the next the plane turns by next to nothing: 1/sqrt(1 - tilt) as a series,
+  // exact to the last digit there, is worth a square root on the longest chain of a contact
+  const double tilt = along * along / length_squared;
+  if (tilt < 1e-5) return (1.0 + tilt * (0.5 + tilt * (0.375 + tilt * 0.3125))) * projected;
   const double projected_squared = projected.squaredNorm();
-  // below the smallest normal number the ratio is meaningless, and so is the spring
   if (!(projected_squared > 2.3e-308)) return Vec3::Zero();
   return std::sqrt(length_squared / projected_squared) * projected;
 }
