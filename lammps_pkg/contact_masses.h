@@ -19,7 +19,7 @@ class ContactMasses : protected Pointers {
   /// Looks up fix freeze and fix rigid; LAMMPS errors if there are several of either.
   void init(const char *command);
 
-  /// Masses of owned atoms, and of ghosts once update_ghosts() sent them; call each step.
+  /// Masses of owned atoms, and of ghosts once body masses were sent to them; call each step.
   /// \return nlocal + nghost masses, valid until the next call
   const double *masses();
 
