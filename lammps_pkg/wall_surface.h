@@ -46,10 +46,7 @@ class WallSurfaces {
   bool reaches(int surface, const double *x, double particle_radius) const
   {
     if (!is_plane()) return true;
-    const int dim = axis();
-    const double distance = has_lo && surface == 0 ? x[dim] - (lo + displacement[dim])
-                                                   : (hi + displacement[dim]) - x[dim];
-    return distance < particle_radius;
+    return plane_distance(surface, x) < particle_radius;
   }
 
   /// \param surface  0 .. count() - 1
@@ -60,12 +57,9 @@ class WallSurfaces {
     point.velocity = eepa::Vec3(velocity.data());
     if (is_plane()) {
       const int dim = axis();
-      const bool lower = has_lo && surface == 0;
-      const double distance = lower ? x[dim] - (lo + displacement[dim])
-                                    : (hi + displacement[dim]) - x[dim];
-      point.overlap = particle_radius - distance;
+      point.overlap = particle_radius - plane_distance(surface, x);
       point.normal.setZero();
-      point.normal[dim] = lower ? 1.0 : -1.0;
+      point.normal[dim] = is_lower(surface) ? 1.0 : -1.0;
       return point;
     }
     const double dx = x[0] - displacement[0];
@@ -78,6 +72,17 @@ class WallSurfaces {
     point.normal = -inside * radial;
     point.velocity += surface_speed * eepa::Vec3(radial[1], -radial[0], 0.0);
     return point;
+  }
+
+ private:
+  bool is_lower(int surface) const { return has_lo && surface == 0; }
+
+  /// From a plane to a centre, > 0 on the plane's inner side [length]
+  double plane_distance(int surface, const double *x) const
+  {
+    const int dim = axis();
+    return is_lower(surface) ? x[dim] - (lo + displacement[dim])
+                             : (hi + displacement[dim]) - x[dim];
   }
 };
 

@@ -4,8 +4,6 @@
 
 #include "macros.h"
 
-#include <limits>
-
 namespace eepa {
 
 /// The normal law; never a silent default, the user names one.
