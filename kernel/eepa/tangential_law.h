@@ -46,6 +46,14 @@ EEPA_FUNCTION SliderForce<Real> slider_force(const Real &stiffness, const Real &
   return result;
 }
 
+/// Likewise, for any expressions that are doubles and a Vec3.
+EEPA_FUNCTION SliderForce<double> slider_force(double stiffness, double inverse_stiffness,
+                                               double viscous, double bound, const Vec3 &velocity,
+                                               Vec3 &spring)
+{
+  return slider_force<double>(stiffness, inverse_stiffness, viscous, bound, velocity, spring);
+}
+
 /// Recoverable energy of a spring, k xi^2 / 2 [force length]
 EEPA_FUNCTION double spring_energy(double stiffness, const Vec3 &spring)
 {

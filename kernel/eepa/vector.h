@@ -57,6 +57,11 @@ EEPA_FUNCTION Vector3<Real> rotate_into_plane(const Vector3<Real> &spring,
   }
   return select(there, factor, none) * projected;
 }
+/// Likewise, for any expression that is a Vec3.
+EEPA_FUNCTION Vec3 rotate_into_plane(const Vec3 &spring, const Vec3 &normal)
+{
+  return rotate_into_plane<double>(spring, normal);
+}
 
 }    // namespace eepa
 
