@@ -3,6 +3,6 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 export BUILD_DIR=${BUILD_DIR:-$root/build}
-TARGETS=lmp "$root/scripts/setup.sh"
+TARGETS="lmp benchmarks" "$root/scripts/setup.sh"
 python=$(sh "$root/scripts/find_python.sh")
 exec "$python" "$root/benchmarks/run_benchmarks.py" "$@"

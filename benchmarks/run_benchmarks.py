@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import subprocess
 import sys
 import time
 from dataclasses import dataclass
@@ -21,10 +22,13 @@ try:
 except ImportError as missing:
     sys.exit(f"{sys.executable} has no {missing.name}; benchmarks/run.sh finds a Python that has it")
 
+from collapse.cases import seeds_per_diameter  # noqa: E402
+from collapse.curves import BadCurve  # noqa: E402
 from collapse.runs import RunFailed, find_lmp  # noqa: E402
 
-from bench import cases, cost, instructions, machine  # noqa: E402
-from bench.lammps import Program  # noqa: E402
+from bench import (cases, cost, diameters, instructions, kernel, machine, memory,  # noqa: E402
+                   scaling)
+from bench.lammps import Program, has_pair_style, usable_cores  # noqa: E402
 from bench.lammps_log import BadLog  # noqa: E402
 from bench.output import write_csv  # noqa: E402
 
@@ -50,6 +54,18 @@ class Session:
 
 def build_folder() -> Path:
     return Path(os.environ.get("BUILD_DIR") or HERE.parent / "build")
+
+
+def run_kernel(s: Session) -> None:
+    """the contact law alone: ns, operations and bytes a contact"""
+    if not (s.build / "bench_kernel").is_file():
+        print("bench_kernel was not built: Google Benchmark is not there")
+        return
+    rows, context = kernel.measure(s.program, s.build, *((2, 0.005) if s.quick else (7, 0.05)))
+    operations = kernel.count_operations(s.build)
+    write_csv(s.results / "operations.csv", operations)
+    s.write("kernel", rows, kernel.table(rows, operations, context))
+    kernel.plot(rows, s.results / "kernel.png")
 
 
 def run_cost(s: Session) -> None:
@@ -82,9 +98,49 @@ def run_instructions(s: Session) -> None:
     s.write("instructions", rows, instructions.table(rows))
 
 
+def run_scaling(s: Session) -> None:
+    """ranks and threads, the same particles on more cores and as many on each"""
+    counts = [n for n in (1, 2, 4, 8, 16, 32) if n <= len(usable_cores())]
+    with_omp = has_pair_style(s.program, s.work / "probe", "gran/eepa/omp")
+    if not with_omp:
+        print("gran/eepa/omp is not in this build: threads are left out")
+    cell = 2000 if s.quick else 20000
+    weak = {n: cases.compression(s.program, s.work, cell, (5, n, 1)) for n in counts}
+    strong = cases.compression(s.program, s.work, cell, (5, 2, 1))
+    if s.quick:
+        weak = {n: case.lasting(20, 100) for n, case in weak.items()}
+        strong = strong.lasting(20, 100)
+    rows = scaling.measure(s.program, scaling.jobs(strong, weak, with_omp), s.rounds, s.work)
+    s.write("scaling", rows, scaling.table(rows, with_omp))
+    scaling.plot(rows, s.results / "scaling.png")
+
+
+def run_diameters(s: Session) -> None:
+    """wall time of one test at equal strain against the particles' diameter"""
+    sizes = [2.0e-3, 2.5e-3, 3.0e-3] if s.quick else [1.0e-3, 1.25e-3, 1.5e-3, 2.0e-3, 2.5e-3,
+                                                      3.0e-3]
+    rows = diameters.measure(s.program, sizes, seeds_per_diameter(sizes, [1] if s.quick else []),
+                             s.work / "diameters")
+    s.write("diameters", rows, diameters.table(rows))
+    diameters.plot(rows, s.results / "diameters.png")
+
+
+def run_memory(s: Session) -> None:
+    """memory a particle, and a million particles"""
+    cell = 1000 if s.quick else 20000
+    sizes = [cases.compression(s.program, s.work, cell, copies)
+             for copies in ((1, 1, 1), (5, 2, 1), (5, 5, 2))]
+    rows = memory.measure(s.program, [size.lasting(5, 20) for size in sizes], memory.STYLES, s.work)
+    s.write("memory", rows, memory.table(rows))
+
+
 PARTS: Dict[str, Callable[[Session], None]] = {
+    "kernel": run_kernel,
     "cost": run_cost,
     "instructions": run_instructions,
+    "scaling": run_scaling,
+    "diameters": run_diameters,
+    "memory": run_memory,
 }
 
 
@@ -141,7 +197,8 @@ def main(words: Optional[Sequence[str]] = None) -> int:
     except KeyboardInterrupt:
         print("\nStopped.")
         return 130
-    except (RunFailed, BadLog, OSError, ValueError) as error:
+    except (RunFailed, BadLog, BadCurve, OSError, ValueError,
+            subprocess.CalledProcessError) as error:
         print(f"\nrun_benchmarks.py: {error}", file=sys.stderr)
         return 1
     return 0

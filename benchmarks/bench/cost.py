@@ -11,15 +11,16 @@ from .lammps import Parallel, Program, run_lammps
 from .lammps_log import read_log
 from .output import text_table
 from .statistics import column, median, paired_ratios
-from .styles import GRANULAR, HOOKE
+from .styles import DAMPED, GRANULAR, HOOKE
 
-STYLES = (HOOKE, GRANULAR, "gran/eepa elastic", "gran/eepa full", "gran/eepa sds")
+STYLES = (HOOKE, DAMPED, GRANULAR, "gran/eepa elastic", "gran/eepa full", "gran/eepa sds")
 
 
 def measure(program: Program, case: Case, styles: Sequence[str], rounds: int,
             work: Path) -> List[Dict]:
-    """One row a run: A B C, A B C, ..."""
+    """One row a run: A B C, A B C, ...; a style that the case has not is left out."""
     rows = []
+    styles = [name for name in styles if name in case.styles]
     for k in range(rounds):
         for name in styles:
             rows.append({"case": case.name, "style": name, "round": k,
@@ -50,7 +51,7 @@ def one_run(program: Program, case: Case, style: str, work: Path,
 def table(rows: Sequence[Dict]) -> str:
     """One block a case."""
     header = ("case and style", "pair, s", "loop, s", "pair / hooke", "loop / hooke",
-              "pair / granular", "contacts", "neighbours", "load/unload/adh/slide, %", "CPU, %")
+              "pair / damped", "pair / granular", "contacts", "neighbours", "load/unload/adh/slide, %", "CPU, %")
     lines = []
     for case in dict.fromkeys(row["case"] for row in rows):
         some = [row for row in rows if row["case"] == case]
@@ -59,8 +60,9 @@ def table(rows: Sequence[Dict]) -> str:
             lines.append(_line(some, style))
     return text_table(header, lines) + (
         "\nMedians over the rounds; of a ratio the median of the rounds' ratios with its "
-        "quartiles.\nContacts and neighbours are a particle's; CPU is the least of the runs: "
-        "below 99 the\nmachine had other things to do.\n")
+        "quartiles.\nContacts and neighbours are a particle's, contacts between start and end. Damped: "
+        "gran/hooke/history with a\ndashpot that leaves as many contacts as hysteresis does. CPU is "
+        "the least of the runs: below 99 the\nmachine had other things to do.\n")
 
 
 def _line(rows: Sequence[Dict], style: str) -> List[str]:
@@ -81,7 +83,8 @@ def _line(rows: Sequence[Dict], style: str) -> List[str]:
     return ["  " + style] + [
         f"{median(list(column(rows, style, 'style', value).values())).value:.3f}"
         for value in ("pair_s", "loop_s")] + [
-        ratio(HOOKE, "pair_s"), ratio(HOOKE, "loop_s"), ratio(GRANULAR, "pair_s"),
+        ratio(HOOKE, "pair_s"), ratio(HOOKE, "loop_s"), ratio(DAMPED, "pair_s"),
+        ratio(GRANULAR, "pair_s"),
         f"{last['contacts'] / last['atoms']:.3f}", f"{last['neighbours'] / last['atoms']:.3f}",
         branches, f"{min(row['cpu_percent'] for row in own):.1f}"]
 
@@ -91,10 +94,10 @@ def plot(rows: Sequence[Dict], path: Path) -> None:
     cases = list(dict.fromkeys(row["case"] for row in rows))
     styles = [name for name in dict.fromkeys(row["style"] for row in rows) if name != HOOKE]
     values = {}
-    for name in styles:
-        for what in ("pair", "loop"):
-            for case in cases:
-                some = [row for row in rows if row["case"] == case]
+    for case in cases:
+        some = [row for row in rows if row["case"] == case]
+        for name in {row["style"] for row in some}:
+            for what in ("pair", "loop"):
                 values[name, what, case] = median(
                     paired_ratios(some, name, HOOKE, "style", f"{what}_s"))
     plots.ratios(cases, styles, values, path)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import time
@@ -15,6 +16,8 @@ from collapse.runs import RunFailed
 
 LOG = "log.lammps"
 SCREEN = "screen.txt"
+# LAMMPS's own output is buffered, and what comes from elsewhere can stand in its midst
+_PEAK = re.compile(r"VmHWM:\s*(\d+) kB")
 
 
 def usable_cores() -> List[int]:
@@ -52,7 +55,7 @@ class Parallel:
 class Finished:
     log: Path
     seconds: float
-    peak_kb: int    #: largest resident set of any one process
+    peak_kb: int    #: largest resident set of the first rank; 0 where nothing told it
 
 
 def command(program: Program, infile: Path, folder: Path, variables: Mapping[str, str],
@@ -107,17 +110,18 @@ def run_lammps(program: Program, infile: Path, folder: Path, variables: Mapping[
         if bound is not None:
             os.sched_setaffinity(process.pid, bound)
         try:
-            _, status, usage = os.wait4(process.pid, 0)
+            process.wait()
         except BaseException:
             os.killpg(process.pid, signal.SIGTERM)
             process.wait()
             raise
     seconds = time.monotonic() - started
-    process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
         said = "\n".join(f"    {line}" for line in tail(folder / SCREEN))
         raise RunFailed(f"status {process.returncode} of\n    {' '.join(words)}\nwhich ends\n{said}")
-    return Finished(folder / LOG, seconds, usage.ru_maxrss)
+    # not the system's account of the child, which begins with this program's own size
+    peak = _PEAK.search((folder / SCREEN).read_text(encoding="utf-8", errors="replace"))
+    return Finished(folder / LOG, seconds, int(peak.group(1)) if peak else 0)
 
 
 def has_pair_style(program: Program, folder: Path, style: str) -> bool:

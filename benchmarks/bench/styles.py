@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Dict, List
 
 HOOKE = "gran/hooke/history"
+DAMPED = "gran/hooke/history damped"
 GRANULAR = "granular"
 
 
@@ -24,6 +25,8 @@ class Material:
     k_adh: float
     f0: float
     mu_r: float = 0.001
+    #: with which gran/hooke/history has as many contacts as hysteresis leaves; 0: as it is
+    damped_restitution: float = 0.0
 
     @property
     def restitution(self) -> float:
@@ -57,7 +60,9 @@ def gamma_of_restitution(restitution: float, k1: float, mass: float) -> float:
 
 
 def make_styles(m: Material) -> Dict[str, Style]:
-    """All styles by name. Of gran/eepa: elastic is gran/hooke/history's physics; full adds
+    """All styles by name. A flow that hysteresis calms is denser and has more contacts, which is
+    no cost of the pair style; `damped` is gran/hooke/history calmed by its dashpot instead, where
+    the material says how much. Of gran/eepa: elastic is gran/hooke/history's physics; full adds
     hysteresis, adhesion, pull-off force and constant rolling friction; plateau is the same with
     the other law; sds is full with a rolling spring instead."""
     damped = 1 if m.tangential_damping else 0
@@ -68,9 +73,13 @@ def make_styles(m: Material) -> Dict[str, Style]:
     # rolling spring and dashpot in proportion to the sliding ones
     sds = (f"{full} rolling sds {0.2 * m.k1:.9g} {0.02 * math.sqrt(m.k1 * m.mass):.9g} "
            f"{10.0 * m.mu_r:.9g}")
+
+    def hooke(name: str, gamma_n: float) -> Style:
+        return Style(name, f"gran/hooke/history {m.k1:.9g} NULL {gamma_n:.9g} NULL {m.mu:.9g} "
+                           f"{damped}", "", "PairGranHookeHistory")
+
     styles: List[Style] = [
-        Style(HOOKE, f"gran/hooke/history {m.k1:.9g} NULL {m.gamma_n:.9g} NULL {m.mu:.9g} "
-                     f"{damped}", "", "PairGranHookeHistory"),
+        hooke(HOOKE, m.gamma_n),
         Style(GRANULAR, "granular",
               f"hooke {m.k1:.9g} {m.gamma_n:.9g} tangential linear_history "
               f"{2.0 / 7.0 * m.k1:.17g} {0.5 * damped:g} {m.mu:.9g} damping mass_velocity",
@@ -80,4 +89,6 @@ def make_styles(m: Material) -> Dict[str, Style]:
         Style("gran/eepa plateau", "gran/eepa plateau", constant, "PairGranEepa"),
         Style("gran/eepa sds", "gran/eepa linear", sds, "PairGranEepa"),
     ]
+    if m.damped_restitution:
+        styles.insert(1, hooke(DAMPED, gamma_of_restitution(m.damped_restitution, m.k1, m.mass)))
     return {style.name: style for style in styles}
