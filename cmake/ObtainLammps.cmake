@@ -11,6 +11,7 @@
 #                          the very definitions that LAMMPS was compiled with; MPI and OpenMP
 #   LAMMPS::lammps         the same and the shared library
 #   EEPA_LAMMPS_EXECUTABLE the stock lmp of the same build
+#   EEPA_LAMMPS_SOURCE     the source tree in use
 #   EEPA_LAMMPS_DATE       its version as a number, such as 20250204; also a definition of LAMMPS::headers
 #
 # LAMMPS is built while configuring, not as a step of the build: its compile definitions,
@@ -272,6 +273,7 @@ ${EEPA_LAMMPS_ARGS}|$ENV{CXXFLAGS}|$ENV{LDFLAGS}|recipe 1")
 
   set(EEPA_LAMMPS_DATE ${date} PARENT_SCOPE)
   set(EEPA_LAMMPS_EXECUTABLE "${build}/lmp" PARENT_SCOPE)
+  set(EEPA_LAMMPS_SOURCE "${source}" PARENT_SCOPE)
 endfunction()
 
 set(_eepa_months Jan Feb Mar Apr May Jun Jul Aug Sep Oct Nov Dec)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""Instructions of a pair style's compute(), counted by callgrind: no noise can move them."""
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+from typing import Dict, List, Sequence
+
+from .cases import Case
+from .lammps import Program, run_lammps
+from .lammps_log import read_log
+from .output import text_table
+from .styles import GRANULAR, HOOKE, Style
+
+STYLES = (HOOKE, GRANULAR, "gran/eepa elastic", "gran/eepa full", "gran/eepa plateau",
+          "gran/eepa sds")
+_TOTALS = re.compile(r"^totals: (\d+)", re.MULTILINE)
+
+
+def available() -> bool:
+    return shutil.which("valgrind") is not None
+
+
+def measure(program: Program, case: Case, styles: Sequence[str], short: int, long: int,
+            work: Path) -> List[Dict]:
+    """Two runs of each style that differ in their steps alone. What is counted beside the steps
+    (the set-ups' force calls, the last step, which also tallies the energy) is the same in both,
+    and the difference is free of it."""
+    rows = []
+    for name in styles:
+        style = case.styles[name]
+        (few, before), (many, after) = (
+            _count(program, case.lasting(case.warm, steps), style, work) for steps in (short, long))
+        contacts = 0.5 * (before.figures["contacts_after"] + after.figures["contacts_after"])
+        per_step = (many - few) / (long - short)
+        rows.append({"case": case.name, "style": name, "atoms": after.atoms,
+                     "instructions_per_step": per_step, "contacts": contacts,
+                     "neighbours": after.neighbors, "per_contact": per_step / contacts,
+                     "per_neighbour": per_step / after.neighbors,
+                     "per_particle": per_step / after.atoms})
+        print(f"  {case.name}: {name}: {rows[-1]['per_contact']:.1f} instructions a contact",
+              flush=True)
+    return rows
+
+
+def _count(program: Program, case: Case, style: Style, work: Path):
+    folder = work / "callgrind"
+    variables = case.variables(style, folder)
+    counts = folder / "callgrind.out"
+    counts.unlink(missing_ok=True)
+    done = run_lammps(program, case.infile, folder, variables, prefix=(
+        "valgrind", "--tool=callgrind", f"--callgrind-out-file={counts}",
+        f"--toggle-collect=LAMMPS_NS::{style.compute}::compute(int, int)"))
+    return read_total(counts.read_text(encoding="utf-8")), read_log(done.log)
+
+
+def read_total(text: str) -> int:
+    """:raise ValueError: where nothing was counted, as when no function has the name sought"""
+    found = _TOTALS.search(text)
+    if not found or int(found.group(1)) == 0:
+        raise ValueError("callgrind counted nothing in the pair style's compute()")
+    return int(found.group(1))
+
+
+def table(rows: Sequence[Dict]) -> str:
+    header = ("case and style", "a contact", "a neighbour", "a particle", "/ hooke", "/ granular",
+              "contacts", "neighbours")
+    lines = []
+    for case in dict.fromkeys(row["case"] for row in rows):
+        some = {row["style"]: row for row in rows if row["case"] == case}
+        lines.append([case] + [""] * (len(header) - 1))
+        for name, row in some.items():
+            def over(reference: str) -> str:
+                if reference not in some:
+                    return ""
+                return (f"{row['instructions_per_step'] / some[reference]['instructions_per_step']:.3f}")
+            lines.append(["  " + name, f"{row['per_contact']:.1f}", f"{row['per_neighbour']:.1f}",
+                          f"{row['per_particle']:.1f}", over(HOOKE), over(GRANULAR),
+                          f"{row['contacts'] / row['atoms']:.3f}",
+                          f"{row['neighbours'] / row['atoms']:.3f}"])
+    return text_table(header, lines) + (
+        "\nInstructions of compute() a step, over contacts, neighbours and particles; contacts "
+        "and\nneighbours are a particle's.\n")

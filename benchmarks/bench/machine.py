@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""What a figure was measured on and with."""
+from __future__ import annotations
+
+import json
+import platform
+import subprocess
+from datetime import datetime, timezone
+from pathlib import Path
+from typing import Dict, Sequence
+
+from .lammps import usable_cores
+
+
+def describe(build: Path, source: Path, words: Sequence[str]) -> Dict[str, object]:
+    """Processor, memory, compiler, flags, LAMMPS, commit, date.
+
+    :param build: build folder; its benchmarks.json was written when it was configured
+    :param words: arguments of this run
+    """
+    return {
+        "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
+        "arguments": list(words),
+        "processor": _from_file(Path("/proc/cpuinfo"), "model name") or platform.processor(),
+        "cores": len(usable_cores()),
+        "memory": _from_file(Path("/proc/meminfo"), "MemTotal"),
+        "caches": _caches(),
+        "system": f"{platform.system()} {platform.release()}",
+        **{k: v for k, v in configured(build).items() if not k.endswith("_path")},
+        "commit": _commit(source),
+    }
+
+
+def configured(build: Path) -> Dict[str, str]:
+    """What CMake wrote down. :raise FileNotFoundError: if it did not"""
+    path = build / "benchmarks.json"
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise FileNotFoundError(f"no {path}: configure the build folder with benchmarks/") from None
+
+
+def _from_file(path: Path, key: str) -> str:
+    try:
+        for line in path.read_text(encoding="utf-8").splitlines():
+            name, _, value = line.partition(":")
+            if name.strip() == key:
+                return value.strip()
+    except OSError:
+        pass
+    return ""
+
+
+def _caches() -> str:
+    parts = []
+    for folder in sorted(Path("/sys/devices/system/cpu/cpu0/cache").glob("index*")):
+        level, kind, size = (_word(folder / name) for name in ("level", "type", "size"))
+        parts.append(f"L{level} {kind.lower()} {size}")
+    return ", ".join(parts)
+
+
+def _word(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8").strip()
+    except OSError:
+        return "?"
+
+
+def _commit(source: Path) -> str:
+    def git(*words: str) -> str:
+        return subprocess.run(["git", "-C", str(source), *words], text=True, check=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout.strip()
+    try:
+        commit = git("rev-parse", "HEAD")
+        changed = git("status", "--porcelain", "--untracked-files=no")
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+    return commit + (" with changes" if changed else "")

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""Medians of paired ratios, and powers fitted to points."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Dict, Hashable, List, Mapping, Sequence
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Median:
+    """A median and the quartiles around it."""
+
+    value: float
+    low: float
+    high: float
+    count: int
+
+    def text(self, digits: int = 3) -> str:
+        return f"{self.value:.{digits}f} [{self.low:.{digits}f}, {self.high:.{digits}f}]"
+
+
+def median(values: Sequence[float]) -> Median:
+    if not len(values):
+        raise ValueError("a median of nothing")
+    low, middle, high = np.percentile(np.asarray(values, dtype=float), (25.0, 50.0, 75.0))
+    return Median(float(middle), float(low), float(high), len(values))
+
+
+def column(rows: Sequence[Mapping], name: Hashable, by: str, value: str) -> Dict[int, float]:
+    """Of the rows where `by` is `name`: `value` for each round."""
+    return {row["round"]: float(row[value]) for row in rows if row[by] == name}
+
+
+def paired_ratios(rows: Sequence[Mapping], name: Hashable, reference: Hashable, by: str,
+                  value: str) -> List[float]:
+    """One ratio a round, of two runs that came one after the other: what slows the machine down
+    for a while slows both.
+
+    :param rows: each has a `round`
+    """
+    ours, theirs = (column(rows, which, by, value) for which in (name, reference))
+    return [ours[k] / theirs[k] for k in sorted(ours) if k in theirs]
+
+
+@dataclass(frozen=True)
+class Power:
+    """y = factor x^exponent"""
+
+    exponent: float
+    factor: float
+    error: float    #: standard error of the exponent; not a number for two points
+
+    def at(self, x: np.ndarray) -> np.ndarray:
+        return self.factor * np.asarray(x, dtype=float) ** self.exponent
+
+
+def fit_power(x: Sequence[float], y: Sequence[float]) -> Power:
+    """Least squares of logarithms."""
+    u, v = np.log(np.asarray(x, dtype=float)), np.log(np.asarray(y, dtype=float))
+    if len(u) < 2:
+        raise ValueError("a power needs two points")
+    du = u - u.mean()
+    exponent = float((du * v).sum() / (du * du).sum())
+    rest = v - v.mean() - exponent * du
+    error = (math.sqrt(float((rest * rest).sum()) / (len(u) - 2) / float((du * du).sum()))
+             if len(u) > 2 else float("nan"))
+    return Power(exponent, math.exp(float(v.mean() - exponent * u.mean())), error)

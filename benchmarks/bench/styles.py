@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""The pair styles that are compared, with coefficients that make their motions alike: the same
+normal and tangential stiffness, the same friction, the same damping of a collision."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Dict, List
+
+HOOKE = "gran/hooke/history"
+DAMPED = "gran/hooke/history damped"
+GRANULAR = "granular"
+
+
+@dataclass(frozen=True)
+class Material:
+    """What a case's spheres are made of, in its units."""
+
+    k1: float
+    mu: float
+    gamma_n: float          #: F = m* gamma_n v, as gran/hooke/history takes it
+    tangential_damping: bool
+    mass: float             #: of one sphere
+    k2: float
+    k_adh: float
+    f0: float
+    mu_r: float = 0.001
+    #: with which gran/hooke/history has as many contacts as hysteresis leaves; 0: as it is
+    damped_restitution: float = 0.0
+
+    @property
+    def restitution(self) -> float:
+        """Of the linear spring-dashpot with gamma_n between two of the spheres."""
+        half = 0.5 * self.gamma_n
+        return math.exp(-math.pi * half / math.sqrt(self.k1 / (0.5 * self.mass) - half * half))
+
+
+@dataclass(frozen=True)
+class Style:
+    """One pair style as a user would write it."""
+
+    name: str
+    pair_style: str
+    pair_coeff: str
+    compute: str    #: the class whose compute() is the pair loop
+
+    @property
+    def lines(self) -> str:
+        return f"pair_style {self.pair_style}\npair_coeff * * {self.pair_coeff}\n"
+
+    @property
+    def is_eepa(self) -> bool:
+        return self.pair_style.startswith("gran/eepa")
+
+
+def gamma_of_restitution(restitution: float, k1: float, mass: float) -> float:
+    """The gamma_n of gran/hooke/history that gives two equal spheres this restitution."""
+    log = math.log(restitution)
+    return -2.0 * log / math.hypot(math.pi, log) * math.sqrt(k1 / (0.5 * mass))
+
+
+def make_styles(m: Material) -> Dict[str, Style]:
+    """All styles by name. A flow that hysteresis calms is denser and has more contacts, which is
+    no cost of the pair style; `damped` is gran/hooke/history calmed by its dashpot instead, where
+    the material says how much. Of gran/eepa: elastic is gran/hooke/history's physics; full adds
+    hysteresis, adhesion, pull-off force and constant rolling friction; plateau is the same with
+    the other law; sds is full with a rolling spring instead."""
+    damped = 1 if m.tangential_damping else 0
+    full = (f"{m.k1:.9g} {m.k2:.9g} {m.k_adh:.9g} {m.f0:.9g} {m.mu:.9g} "
+            f"restitution {m.restitution:.6f}")
+    elastic = f"{m.k1:.9g} {m.k1:.9g} 0 0 {m.mu:.9g} restitution {m.restitution:.6f}"
+    constant = f"{full} rolling constant {m.mu_r:.9g}"
+    # rolling spring and dashpot in proportion to the sliding ones
+    sds = (f"{full} rolling sds {0.2 * m.k1:.9g} {0.02 * math.sqrt(m.k1 * m.mass):.9g} "
+           f"{10.0 * m.mu_r:.9g}")
+
+    def hooke(name: str, gamma_n: float) -> Style:
+        return Style(name, f"gran/hooke/history {m.k1:.9g} NULL {gamma_n:.9g} NULL {m.mu:.9g} "
+                           f"{damped}", "", "PairGranHookeHistory")
+
+    styles: List[Style] = [
+        hooke(HOOKE, m.gamma_n),
+        Style(GRANULAR, "granular",
+              f"hooke {m.k1:.9g} {m.gamma_n:.9g} tangential linear_history "
+              f"{2.0 / 7.0 * m.k1:.17g} {0.5 * damped:g} {m.mu:.9g} damping mass_velocity",
+              "PairGranular"),
+        Style("gran/eepa elastic", "gran/eepa linear", elastic, "PairGranEepa"),
+        Style("gran/eepa full", "gran/eepa linear", constant, "PairGranEepa"),
+        Style("gran/eepa plateau", "gran/eepa plateau", constant, "PairGranEepa"),
+        Style("gran/eepa sds", "gran/eepa linear", sds, "PairGranEepa"),
+    ]
+    if m.damped_restitution:
+        styles.insert(1, hooke(DAMPED, gamma_of_restitution(m.damped_restitution, m.k1, m.mass)))
+    return {style.name: style for style in styles}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_SAMPLE_CONTACTS_H
+#define EEPA_SAMPLE_CONTACTS_H
+
+// Contacts as a packing of a cohesive powder has them, of one branch each, for the programs that
+// time and count what the law does with them. count_operations.cpp gives `double` another
+// meaning, hence Plain where a true one is needed.
+
+#include <eepa/dispatch.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace eepa_bench {
+
+using Plain = decltype(0.0);
+using eepa::Vec3;
+
+/// What is asked of the contacts of one run.
+enum class Kind { loading, unloading, adhesive, sliding, mixed };
+constexpr Kind all_kinds[] = {Kind::loading, Kind::unloading, Kind::adhesive, Kind::sliding,
+                              Kind::mixed};
+
+inline const char *name_of(Kind kind)
+{
+  switch (kind) {
+    case Kind::loading:
+      return "loading";
+    case Kind::unloading:
+      return "unloading";
+    case Kind::adhesive:
+      return "adhesive";
+    case Kind::sliding:
+      return "sliding";
+    case Kind::mixed:
+      break;
+  }
+  return "mixed";
+}
+
+/// A law with its coefficients.
+struct Choice {
+  eepa::LawSettings settings;
+  eepa::Parameters parameters;
+  std::string law, rolling;
+  std::string name(Kind kind) const
+  {
+    return law + "/" + name_of(kind) + "/" + rolling;
+  }
+};
+
+/// Every law with every rolling model: a powder of 1 mm, as in examples/scale_collapse.
+inline std::vector<Choice> all_choices()
+{
+  std::vector<Choice> choices;
+  for (int law = 0; law < 3; law++) {
+    for (int rolling = 0; rolling < 3; rolling++) {
+      Choice choice;
+      choice.law = law == 0 ? "plateau" : law == 1 ? "linear" : "linear 1.5";
+      choice.rolling = rolling == 0 ? "none" : rolling == 1 ? "constant" : "sds";
+      auto &s = choice.settings;
+      s.law = law == 0 ? eepa::Law::plateau : eepa::Law::linear;
+      s.exponent = law == 2 ? 1.5 : 1.0;
+      s.scaled = true;
+      s.reference_diameter = 1.0e-3;
+      auto &p = choice.parameters;
+      // of force/length^1.5 so that an overlap of 1% has the same force
+      const Plain unit = law == 2 ? 1.0 / 3.1622776601683794e-3 : 1.0;
+      p.k1 = 5.0e3 * unit;
+      p.k2 = 1.0e4 * unit;
+      p.k_adh = 5.0e3 * unit;
+      p.f0 = -1.0e-4;
+      p.mu = 0.5;
+      p.kt_given = true;
+      p.kt = 2.0 / 7.0 * 5.0e3;
+      p.restitution = 0.3;
+      p.rolling = rolling == 0 ? eepa::RollingModel::none
+                               : rolling == 1 ? eepa::RollingModel::constant
+                                              : eepa::RollingModel::sds;
+      p.mu_r = rolling == 1 ? 1.0e-3 : 1.0e-2;
+      if (rolling == 2) {
+        p.kr = 1.0e3;
+        p.rolling_viscous = 1.0e-3;
+      }
+      choices.push_back(choice);
+    }
+  }
+  return choices;
+}
+
+/// Reproducible numbers in [0, 1) (Knuth's 64-bit linear congruence).
+class Numbers {
+ public:
+  Plain operator()()
+  {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<Plain>(state >> 11) * 0x1p-53;
+  }
+  Plain between(Plain low, Plain high)
+  {
+    return low + (high - low) * (*this)();
+  }
+  Vec3 in_cube()
+  {
+    const Plain x = between(-1.0, 1.0), y = between(-1.0, 1.0), z = between(-1.0, 1.0);
+    return Vec3(x, y, z);
+  }
+
+ private:
+  std::uint64_t state = 20250204;
+};
+
+/// A contact and its state.
+struct Sample {
+  eepa::Contact contact;
+  eepa::History history;
+};
+
+constexpr Plain time_step = 1.8e-6;
+
+/// Contacts of a kind that stay so however often they are evaluated: only those that slide (and
+/// with sds roll at their bound) have a velocity that winds their springs up.
+template <class ContactLaw>
+std::vector<Sample> make_samples(const Choice &choice, Kind kind, std::size_t count)
+{
+  Numbers random;
+  const eepa::Coefficients c = eepa::resolve(choice.parameters, choice.settings);
+  std::vector<Sample> samples(count);
+  for (Sample &sample : samples) {
+    Kind own = kind;
+    if (kind == Kind::mixed) {    // about what the dense compression has
+      const Plain which = random();
+      own = which < 0.6 ? Kind::loading
+                        : which < 0.85 ? Kind::unloading
+                                       : which < 0.9 ? Kind::adhesive : Kind::sliding;
+    }
+    eepa::Contact &contact = sample.contact;
+    const Plain radius = random.between(0.4e-3, 0.6e-3), other = random.between(0.4e-3, 0.6e-3);
+    contact.size = radius + other;
+    contact.overlap = contact.size * random.between(0.002, 0.02);
+    contact.effective_mass = 2000.0 * 4.18879 * eepa::effective_mass(radius * radius * radius,
+                                                                      other * other * other);
+    contact.effective_radius = eepa::effective_radius(radius, other);
+    Vec3 normal = random.in_cube() + Vec3(0.1, 0.2, 0.3);
+    contact.normal = normal / std::sqrt(normal.squaredNorm());
+    Vec3 tangent = contact.normal.cross(Vec3(0.3, -0.5, 0.8) + random.in_cube());
+    tangent = tangent / std::sqrt(tangent.squaredNorm());
+    const bool slides = own == Kind::sliding;
+    contact.velocity = slides ? Vec3(0.05 * tangent) : Vec3(-1e-3 * random() * contact.normal);
+    contact.spin = 1e-3 * random() * contact.normal;
+    contact.angular_velocity = random.between(1.0, 20.0) *
+        (slides || !ContactLaw::Rolling::has_spring ? tangent : contact.normal);
+
+    eepa::History &history = sample.history;
+    history.max_overlap = own == Kind::unloading ? contact.overlap / 0.7
+        : own == Kind::adhesive                  ? contact.overlap / 0.2
+                                                 : 0.9 * contact.overlap;
+    eepa::History trial = history;
+    const eepa::Response response = ContactLaw::evaluate(c, false, contact, 0.0, trial);
+    const auto stretch = (slides ? 2.0 : 0.2) * response.friction_bound /
+        (eepa::contact_scale(c, contact.size).stiffness() * c.kt);
+    history.tangential_spring = stretch * tangent;
+    history.rolling_spring = 1e-9 * contact.normal.cross(random.in_cube());
+  }
+  return samples;
+}
+
+}    // namespace eepa_bench
+
+#endif

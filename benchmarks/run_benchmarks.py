@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-only
+"""Measures what this project costs and prints, draws and writes down the result: see README.md."""
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable, Dict, List, Optional, Sequence
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "examples" / "scale_collapse")]
+
+try:
+    import numpy  # noqa: F401
+    import matplotlib  # noqa: F401
+except ImportError as missing:
+    sys.exit(f"{sys.executable} has no {missing.name}; benchmarks/run.sh finds a Python that has it")
+
+from collapse.cases import seeds_per_diameter  # noqa: E402
+from collapse.curves import BadCurve  # noqa: E402
+from collapse.runs import RunFailed, find_lmp  # noqa: E402
+
+from bench import (cases, cost, diameters, instructions, kernel, machine, memory,  # noqa: E402
+                   scaling)
+from bench.lammps import Program, has_pair_style, usable_cores  # noqa: E402
+from bench.lammps_log import BadLog  # noqa: E402
+from bench.output import write_csv  # noqa: E402
+
+
+@dataclass(frozen=True)
+class Session:
+    """What every part is given."""
+
+    program: Program
+    build: Path
+    lammps_source: Path
+    work: Path       #: start files and running simulations
+    results: Path    #: what is left in the end
+    quick: bool
+    rounds: int
+
+    def write(self, name: str, rows: Sequence[Dict], text: str) -> None:
+        """The raw rows, and the table, which is also printed."""
+        write_csv(self.results / f"{name}.csv", rows)
+        (self.results / f"{name}.txt").write_text(text, encoding="utf-8")
+        print("\n" + text, flush=True)
+
+
+def build_folder() -> Path:
+    return Path(os.environ.get("BUILD_DIR") or HERE.parent / "build")
+
+
+def run_kernel(s: Session) -> None:
+    """the contact law alone: ns, operations and bytes a contact"""
+    if not (s.build / "bench_kernel").is_file():
+        print("bench_kernel was not built: Google Benchmark is not there")
+        return
+    rows, context = kernel.measure(s.program, s.build, *((2, 0.005) if s.quick else (7, 0.05)))
+    operations = kernel.count_operations(s.build)
+    write_csv(s.results / "operations.csv", operations)
+    s.write("kernel", rows, kernel.table(rows, operations, context))
+    kernel.plot(rows, s.results / "kernel.png")
+
+
+def run_cost(s: Session) -> None:
+    """gran/eepa beside gran/hooke/history and granular in turn: pair time and whole loop"""
+    if s.quick:
+        sizes = [cases.chute(s.lammps_source).lasting(50, 200),
+                 cases.compression(s.program, s.work, 2000).lasting(100, 1000)]
+    else:
+        sizes = [cases.chute(s.lammps_source), cases.compression(s.program, s.work, 20000),
+                 cases.compression(s.program, s.work, 20000, (5, 2, 1))]
+    rows: List[Dict] = []
+    for case in sizes:
+        rows += cost.measure(s.program, case, cost.STYLES, s.rounds, s.work)
+    s.write("cost", rows, cost.table(rows))
+    cost.plot(rows, s.results / "cost.png")
+
+
+def run_instructions(s: Session) -> None:
+    """instructions a contact, by callgrind"""
+    if not instructions.available():
+        print("valgrind is not there: no instructions are counted")
+        return
+    packing = 1000 if s.quick else 4000
+    sizes = [cases.compression(s.program, s.work, packing).lasting(100, 0)]
+    if not s.quick:
+        sizes.insert(0, cases.chute(s.lammps_source).lasting(20, 0))
+    rows: List[Dict] = []
+    for case in sizes:
+        rows += instructions.measure(s.program, case, instructions.STYLES, 10, 30, s.work)
+    s.write("instructions", rows, instructions.table(rows))
+
+
+def run_scaling(s: Session) -> None:
+    """ranks and threads, the same particles on more cores and as many on each"""
+    counts = [n for n in (1, 2, 4, 8, 16, 32) if n <= len(usable_cores())]
+    with_omp = has_pair_style(s.program, s.work / "probe", "gran/eepa/omp")
+    if not with_omp:
+        print("gran/eepa/omp is not in this build: threads are left out")
+    cell = 2000 if s.quick else 20000
+    weak = {n: cases.compression(s.program, s.work, cell, (5, n, 1)) for n in counts}
+    strong = cases.compression(s.program, s.work, cell, (5, 2, 1))
+    if s.quick:
+        weak = {n: case.lasting(20, 100) for n, case in weak.items()}
+        strong = strong.lasting(20, 100)
+    rows = scaling.measure(s.program, scaling.jobs(strong, weak, with_omp), s.rounds, s.work)
+    s.write("scaling", rows, scaling.table(rows, with_omp))
+    scaling.plot(rows, s.results / "scaling.png")
+
+
+def run_diameters(s: Session) -> None:
+    """wall time of one test at equal strain against the particles' diameter"""
+    sizes = [2.0e-3, 2.5e-3, 3.0e-3] if s.quick else [1.0e-3, 1.25e-3, 1.5e-3, 2.0e-3, 2.5e-3,
+                                                      3.0e-3]
+    rows = diameters.measure(s.program, sizes, seeds_per_diameter(sizes, [1] if s.quick else []),
+                             s.work / "diameters")
+    s.write("diameters", rows, diameters.table(rows))
+    diameters.plot(rows, s.results / "diameters.png")
+
+
+def run_memory(s: Session) -> None:
+    """memory a particle, and a million particles"""
+    cell = 1000 if s.quick else 20000
+    sizes = [cases.compression(s.program, s.work, cell, copies)
+             for copies in ((1, 1, 1), (5, 2, 1), (5, 5, 2))]
+    rows = memory.measure(s.program, [size.lasting(5, 20) for size in sizes], memory.STYLES, s.work)
+    s.write("memory", rows, memory.table(rows))
+
+
+PARTS: Dict[str, Callable[[Session], None]] = {
+    "kernel": run_kernel,
+    "cost": run_cost,
+    "instructions": run_instructions,
+    "scaling": run_scaling,
+    "diameters": run_diameters,
+    "memory": run_memory,
+}
+
+
+def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace:
+    parts = "\n".join(f"  {name:13} {part.__doc__}" for name, part in PARTS.items())
+    parser = argparse.ArgumentParser(description=f"{__doc__}\n\nparts:\n{parts}",
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", nargs="+", choices=list(PARTS), default=list(PARTS),
+                        metavar="PART", help="these parts alone")
+    parser.add_argument("--quick", action="store_true",
+                        help="tiny sizes, to see that it works: the figures say little")
+    parser.add_argument("--rounds", type=int, default=None, metavar="N",
+                        help="how often each style is run (default: 5, quick 2)")
+    parser.add_argument("--lmp", type=Path, default=None,
+                        help="LAMMPS with this package (default: lmp in the build folder)")
+    parser.add_argument("--mpirun", default="mpirun", help="what starts several ranks")
+    parser.add_argument("--no-bind", action="store_true",
+                        help="let ranks and threads wander: for a machine that others use")
+    parser.add_argument("--out", type=Path, default=None,
+                        help="folder of the results (default: benchmarks/results in the build "
+                             "folder)")
+    arguments = parser.parse_args(words)
+    if arguments.rounds is None:
+        arguments.rounds = 2 if arguments.quick else 5
+    if arguments.rounds < 1:
+        parser.error(f"--rounds is {arguments.rounds}, allowed is 1 or more")
+    return arguments
+
+
+def main(words: Optional[Sequence[str]] = None) -> int:
+    arguments = parse_arguments(words)
+    started = time.monotonic()
+    try:
+        build = build_folder().resolve()
+        results = (arguments.out or build / "benchmarks" / "results").resolve()
+        work = build / "benchmarks" / "work"
+        for folder in (results, work):
+            folder.mkdir(parents=True, exist_ok=True)
+        session = Session(
+            Program(find_lmp(arguments.lmp, [build / "lmp"]), arguments.mpirun,
+                    not arguments.no_bind),
+            build, Path(machine.configured(build)["lammps_source_path"]), work, results,
+            arguments.quick, arguments.rounds)
+        description = machine.describe(build, HERE.parent, sys.argv[1:] if words is None else words)
+        (results / "machine.json").write_text(json.dumps(description, indent=2) + "\n",
+                                              encoding="utf-8")
+        print("\n".join(f"{name}: {value}" for name, value in description.items()), flush=True)
+        for name in PARTS:
+            if name in arguments.only:
+                print(f"\n== {name}: {PARTS[name].__doc__}", flush=True)
+                PARTS[name](session)
+        print(f"\nTables, figures and every single run: {results} "
+              f"({(time.monotonic() - started) / 60.0:.1f} minutes)")
+    except KeyboardInterrupt:
+        print("\nStopped.")
+        return 130
+    except (RunFailed, BadLog, BadCurve, OSError, ValueError,
+            subprocess.CalledProcessError) as error:
+        print(f"\nrun_benchmarks.py: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
