@@ -15,67 +15,46 @@
 
 namespace LAMMPS_NS {
 
-/// Some contacts, one in each lane.
+/// A contact in each lane.
 class ContactLanes {
  public:
   static constexpr int width = static_cast<int>(eepa::Lanes::size());
 
-  /// \param count  1 .. width; further lanes repeat the last contact, and are not scattered
-  ContactLanes(const FoundContact *found, int count) : found_(found), count_(count)
+  /// \param found  `width` contacts
+  EEPA_FUNCTION explicit ContactLanes(const FoundContact *found) : found_(found)
   {
     for (int lane = 0; lane < width; lane++) {
-      const FoundContact &contact = found[lane < count ? lane : count - 1];
-      i_[lane] = contact.i;
-      j_[lane] = contact.j;
-      history_[lane] = contact.history;
-    }
-  }
-
-  /// \tparam WithRolling  whether the law reads the effective radius and the angular velocities
-  template <bool WithRolling> void gather(const ParticleArrays &p)
-  {
-    using eepa::Lanes;
-    const Lanes radius_i = numbers(p.radius, i_), radius_j = numbers(p.radius, j_);
-    offset = vectors(p.x, i_) - vectors(p.x, j_);
-    const Lanes distance = sqrt(eepa::squared_length(offset));
-    contact.size = radius_i + radius_j;
-    contact.overlap = contact.size - distance;
-    contact.normal = (1.0 / distance) * offset;
-    contact.effective_mass = eepa::effective_mass(numbers(p.mass, i_), numbers(p.mass, j_));
-    contact.velocity = vectors(p.v, i_) - vectors(p.v, j_);
-    arm_i = eepa::lever_arm(radius_i, contact.overlap);
-    arm_j = eepa::lever_arm(radius_j, contact.overlap);
-    const Vector omega_i = vectors(p.omega, i_), omega_j = vectors(p.omega, j_);
-    contact.spin = arm_i * omega_i + arm_j * omega_j;
-    smaller_radius = eepa::smaller(radius_i, radius_j);
-    if constexpr (WithRolling) {
-      contact.effective_radius = eepa::effective_radius(radius_i, radius_j);
-      contact.angular_velocity = omega_i - omega_j;
+      i_[lane] = found[lane].i;
+      j_[lane] = found[lane].j;
+      history_[lane] = found[lane].history;
     }
   }
 
   /// Evaluates the law, stores states and statuses and adds the forces.
   /// \param f, torque  3 doubles an atom
   template <class ContactLaw>
-  void evaluate(const eepa::Coefficients &c, bool limit_damping, double time_step,
-                const ParticleArrays &p, double *f, double *torque, ContactSlice &slice)
+  EEPA_FUNCTION void evaluate(const eepa::Coefficients &c, bool limit_damping, double time_step,
+                              const ParticleArrays &p, double *f, double *torque,
+                              ContactSlice &slice)
   {
     constexpr bool rolling_spring = ContactLaw::Rolling::has_spring;
-    gather<ContactLaw::has_rolling>(p);
-    if (eepa::any(contact.overlap > smaller_radius)) note_depth(slice);
+    gather<ContactLaw::has_rolling>(p, slice);
     eepa::HistoryOf<eepa::Lanes> history = eepa::load_history<rolling_spring>(history_);
     const eepa::ResponseOf<eepa::Lanes> response =
-        ContactLaw::evaluate(c, limit_damping, contact, time_step, history);
-    eepa::store_history<rolling_spring>(history, history_, count_);
-    store_status(response.branch, response.sliding);
+        ContactLaw::evaluate(c, limit_damping, contact_, time_step, history);
+    eepa::store_history<rolling_spring>(history, history_);
+    for (int lane = 0; lane < width; lane++)
+      *found_[lane].status =
+          ContactStatus::of(static_cast<eepa::Branch>(static_cast<int>(response.branch[lane])),
+                            response.sliding[lane]);
 
-    const Vector moment = ContactLaw::tangential_moment(response, contact);
-    Vector torque_i = -arm_i * moment, torque_j = -arm_j * moment;
+    const Vector moment = ContactLaw::tangential_moment(response, contact_);
+    Vector torque_i = -arm_i_ * moment, torque_j = -arm_j_ * moment;
     if constexpr (ContactLaw::has_rolling) {
       torque_i += response.rolling_torque;
       torque_j -= response.rolling_torque;
     }
-    scatter(ContactLaw::force_on_i(response, contact), torque_i, torque_j, f, torque, slice);
+    scatter(ContactLaw::force_on_i(response, contact_), torque_i, torque_j, f, torque, slice);
   }
 
  private:
@@ -83,60 +62,65 @@ class ContactLanes {
   using Index = std::ptrdiff_t;
 
   const FoundContact *found_;
-  int count_;
   Index i_[width], j_[width];
-  double *history_[width];
-  eepa::ContactOf<eepa::Lanes> contact;
-  Vector offset;
-  eepa::Lanes arm_i, arm_j, smaller_radius;
+  eepa::LanePointers<double> history_;
+  eepa::ContactOf<eepa::Lanes> contact_;
+  eepa::Lanes arm_i_, arm_j_;
 
-  static eepa::Lanes numbers(const double *array, const Index *atoms)
+  EEPA_FUNCTION static eepa::Lanes numbers(const double *array, const Index (&atoms)[width])
   {
-    return eepa::Lanes([&](auto lane) { return array[atoms[lane]]; });
+    eepa::LanePointers<const double> at;
+    for (int lane = 0; lane < width; lane++) at[lane] = array + atoms[lane];
+    return eepa::gather_numbers(at);
   }
-  static Vector vectors(const double *array, const Index *atoms)
+  EEPA_FUNCTION static Vector rows(const double *array, const Index (&atoms)[width])
   {
-    const auto component = [&](int k) {
-      return eepa::Lanes([&](auto lane) { return array[3 * atoms[lane] + k]; });
-    };
-    return Vector(component(0), component(1), component(2));
-  }
-
-  void note_depth(ContactSlice &slice) const
-  {
-    for (int lane = 0; lane < count_; lane++)
-      slice.note_depth(found_[lane].i, found_[lane].j, contact.overlap[lane],
-                       smaller_radius[lane]);
+    eepa::LanePointers<const double> at;
+    for (int lane = 0; lane < width; lane++) at[lane] = array + 3 * atoms[lane];
+    return eepa::gather_rows(at);
   }
 
-  void store_status(const eepa::Lanes &branch, const eepa::Lanes::mask_type &sliding) const
+  /// As gather_contact().
+  template <bool WithRolling>
+  EEPA_FUNCTION void gather(const ParticleArrays &p, ContactSlice &slice)
   {
-    for (int lane = 0; lane < count_; lane++)
-      *found_[lane].status = ContactStatus::of(
-          static_cast<eepa::Branch>(static_cast<int>(branch[lane])), sliding[lane]);
-  }
-
-  void scatter(const Vector &force, const Vector &torque_i, const Vector &torque_j, double *f,
-               double *torque, ContactSlice &slice) const
-  {
-    double push[3][width], turn_i[3][width], turn_j[3][width];
-    for (int k = 0; k < 3; k++) {
-      force[k].copy_to(push[k], std::experimental::element_aligned);
-      torque_i[k].copy_to(turn_i[k], std::experimental::element_aligned);
-      torque_j[k].copy_to(turn_j[k], std::experimental::element_aligned);
+    using eepa::Lanes;
+    const Lanes radius_i = numbers(p.radius, i_), radius_j = numbers(p.radius, j_);
+    const Vector offset = rows(p.x, i_) - rows(p.x, j_);
+    const Lanes distance = sqrt(eepa::squared_length(offset));
+    contact_.size = radius_i + radius_j;
+    contact_.overlap = contact_.size - distance;
+    contact_.normal = (1.0 / distance) * offset;
+    contact_.effective_mass = eepa::effective_mass(numbers(p.mass, i_), numbers(p.mass, j_));
+    contact_.velocity = rows(p.v, i_) - rows(p.v, j_);
+    arm_i_ = eepa::lever_arm(radius_i, contact_.overlap);
+    arm_j_ = eepa::lever_arm(radius_j, contact_.overlap);
+    const Vector omega_i = rows(p.omega, i_), omega_j = rows(p.omega, j_);
+    contact_.spin = arm_i_ * omega_i + arm_j_ * omega_j;
+    if constexpr (WithRolling) {
+      contact_.effective_radius = eepa::effective_radius(radius_i, radius_j);
+      contact_.angular_velocity = omega_i - omega_j;
     }
-    for (int lane = 0; lane < count_; lane++) {
-      double *f_i = f + 3 * i_[lane], *torque_of_i = torque + 3 * i_[lane];
-      for (int k = 0; k < 3; k++) f_i[k] += push[k][lane];
-      for (int k = 0; k < 3; k++) torque_of_i[k] += turn_i[k][lane];
-      const int j = found_[lane].j;
+    const Lanes smaller_radius = eepa::smaller(radius_i, radius_j);
+    if (eepa::any(contact_.overlap > smaller_radius))
+      for (int lane = 0; lane < width; lane++)
+        slice.note_depth(found_[lane].i, found_[lane].j, contact_.overlap[lane],
+                         smaller_radius[lane]);
+  }
+
+  EEPA_FUNCTION void scatter(const Vector &force, const Vector &torque_i, const Vector &torque_j,
+                             double *f, double *torque, ContactSlice &slice) const
+  {
+    const eepa::LaneRows push(force), turn_i(torque_i), turn_j(torque_j);
+    for (int lane = 0; lane < width; lane++) {
+      push.add_to(f + 3 * i_[lane], lane);
+      turn_i.add_to(torque + 3 * i_[lane], lane);
+      const int j = static_cast<int>(j_[lane]);
       if (slice.writes(j)) {
-        double *f_j = f + 3 * j_[lane], *torque_of_j = torque + 3 * j_[lane];
-        for (int k = 0; k < 3; k++) f_j[k] -= push[k][lane];
-        for (int k = 0; k < 3; k++) torque_of_j[k] += turn_j[k][lane];
+        push.subtract_from(f + 3 * j_[lane], lane);
+        turn_j.add_to(torque + 3 * j_[lane], lane);
       } else if (slice.defers(j)) {
-        slice.deferred.push_back({j, {-push[0][lane], -push[1][lane], -push[2][lane]},
-                                  {turn_j[0][lane], turn_j[1][lane], turn_j[2][lane]}});
+        slice.deferred.push_back({j, -push[lane], turn_j[lane]});
       }
     }
   }

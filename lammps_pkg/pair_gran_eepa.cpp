@@ -280,9 +280,10 @@ void PairGranEepa::choose_classes()
   for (int i = 1; i <= atom->ntypes; i++) {
     for (int j = i; j <= atom->ntypes; j++) {
       const eepa::Coefficients &own = coefficients[pair_index(i, j)];
-      const auto same = std::find_if(
-          coefficient_classes.begin(), coefficient_classes.end(),
-          [&own](const auto &other) { return std::memcmp(&own, &other, sizeof(own)) == 0; });
+      const auto same = std::find_if(coefficient_classes.begin(), coefficient_classes.end(),
+                                     [&own](const auto &other) {
+                                       return std::memcmp(&own, &other, sizeof(own)) == 0;
+                                     });
       class_of_pair[pair_index(i, j)] = class_of_pair[pair_index(j, i)] =
           static_cast<int>(same - coefficient_classes.begin());
       if (same == coefficient_classes.end()) coefficient_classes.push_back(own);

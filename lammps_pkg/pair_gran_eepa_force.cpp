@@ -140,21 +140,20 @@ void PairGranEepa::open_contact(ContactSlice &slice, int i, int place)
   std::fill_n(values, size, 0.0);
 }
 
-/// Has the processor fetch what the evaluation of a contact is going to read and write. Inlined by
-/// force: GCC takes a function that does nothing else for one without effect, and drops its calls.
+/// Has the processor fetch what the evaluation of a contact is going to read and write, but for
+/// particle i, which comes in turn. Inlined by force: GCC takes a function that does nothing else
+/// for one without effect, and drops its calls.
 EEPA_FUNCTION void prefetch(const FoundContact &contact, const ParticleArrays &p, const double *f,
                             const double *torque)
 {
 #if defined(__GNUC__) || defined(__clang__)
+  const std::ptrdiff_t j = 3 * static_cast<std::ptrdiff_t>(contact.j);
   __builtin_prefetch(contact.history, 1);
-  for (const int atom : {contact.i, contact.j}) {
-    const std::ptrdiff_t at = 3 * static_cast<std::ptrdiff_t>(atom);
-    __builtin_prefetch(p.v + at);
-    __builtin_prefetch(p.omega + at);
-    __builtin_prefetch(p.mass + atom);
-    __builtin_prefetch(f + at, 1);
-    __builtin_prefetch(torque + at, 1);
-  }
+  __builtin_prefetch(p.v + j);
+  __builtin_prefetch(p.omega + j);
+  __builtin_prefetch(p.mass + contact.j);
+  __builtin_prefetch(f + j, 1);
+  __builtin_prefetch(torque + j, 1);
 #endif
 }
 
@@ -200,10 +199,11 @@ void PairGranEepa::evaluate_plainly(ContactSlice &slice, const FoundContact *con
   const eepa::Coefficients c = given;    // on the stack no force can overwrite it
   const bool limit_damping = style.settings.limit_damping;
   double *f = atom->f[0], *torque = atom->torque[0];
-  for (int n = 0; n < count; n += ContactLanes::width) {
-    ContactLanes lanes(contacts + n, std::min(count - n, ContactLanes::width));
-    lanes.evaluate<ContactLaw>(c, limit_damping, dt, particles, f, torque, slice);
-  }
+  int n = 0;
+  for (; n + ContactLanes::width <= count; n += ContactLanes::width)
+    ContactLanes(contacts + n)
+        .evaluate<ContactLaw>(c, limit_damping, dt, particles, f, torque, slice);
+  evaluate_fully<ContactLaw>(slice, contacts + n, count - n, c);
 }
 #endif
 
@@ -266,8 +266,8 @@ void PairGranEepa::evaluate_fully(ContactSlice &slice, const FoundContact *conta
       slice.deferred.push_back({j, -pair_force, factor * torque_j});
     }
     if (evflag)
-      ev_tally_xyz(i, j, nlocal, newton, factor * energy.total(), 0.0, pair_force[0],
-                   pair_force[1], pair_force[2], offset[0], offset[1], offset[2]);
+      ev_tally_xyz(i, j, nlocal, newton, factor * energy.total(), 0.0, pair_force[0], pair_force[1],
+                   pair_force[2], offset[0], offset[1], offset[2]);
   }
 }
 
@@ -283,11 +283,10 @@ void PairGranEepa::book_opening_of(ContactSlice &slice, int i, int j, const doub
   eepa::Contact contact;
   const Vec3 offset = particles.at(particles.x, i) - particles.at(particles.x, j);
   gather_contact<true>(particles, i, j, offset, eepa::squared_length<double>(offset), contact);
-  slice.ledger.dissipated.add(
-      eepa::dissipation_of_opening<ContactLaw>(
-          coefficients[pair_index(atom->type[i], atom->type[j])], contact, dt,
-          eepa::load_history<ContactLaw::Rolling::has_spring>(values)),
-      share_of_pair(j));
+  slice.ledger.dissipated.add(eepa::dissipation_of_opening<ContactLaw>(
+                                  coefficients[pair_index(atom->type[i], atom->type[j])], contact,
+                                  dt, eepa::load_history<ContactLaw::Rolling::has_spring>(values)),
+                              share_of_pair(j));
 }
 
 void PairGranEepa::stop_at_overlap(int i, int j) const

@@ -85,7 +85,8 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
       response.normal_force = larger(response.normal_force, smaller(normal.force, none));
 
     // friction; the bound has f_hys, never the dashpot
-    response.friction_bound = larger<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, none);
+    response.friction_bound =
+        larger<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, none);
     const Vector3<Real> velocity = tangential_velocity(contact, normal_velocity);
     Vector3<Real> &spring = history.tangential_spring;
     spring = rotate_into_plane(spring, contact.normal) + Real(time_step) * velocity;

@@ -2,6 +2,7 @@
 #ifndef EEPA_HISTORY_H
 #define EEPA_HISTORY_H
 
+#include "lane_rows.h"
 #include "vector.h"
 
 namespace eepa {
@@ -46,19 +47,21 @@ template <bool WithRolling> EEPA_FUNCTION History load_history(const double *val
 /// Reads the states of several contacts.
 /// \param values  as for one contact, for each lane
 template <bool WithRolling>
-EEPA_FUNCTION HistoryOf<Lanes> load_history(const double *const *values)
+EEPA_FUNCTION HistoryOf<Lanes> load_history(const LanePointers<double> &values)
 {
   using std::abs;
-  const auto gather = [values](int index) {
-    return Lanes([values, index](auto lane) { return values[lane][index]; });
-  };
-  const auto gather_spring = [&gather](int index) {
-    return Vector3<Lanes>(gather(index), gather(index + 1), gather(index + 2));
-  };
+  static_assert(MAX_OVERLAP == 0 && TANGENTIAL_SPRING == 1, "they are read as one row of 4");
   HistoryOf<Lanes> history;
-  history.max_overlap = abs(gather(MAX_OVERLAP));
-  history.tangential_spring = gather_spring(TANGENTIAL_SPRING);
-  if constexpr (WithRolling) history.rolling_spring = gather_spring(ROLLING_SPRING);
+  const std::array<Lanes, 4> row = gather_rows_of_4(values);
+  history.max_overlap = abs(row[MAX_OVERLAP]);
+  history.tangential_spring = Vector3<Lanes>(row[TANGENTIAL_SPRING], row[TANGENTIAL_SPRING + 1],
+                                             row[TANGENTIAL_SPRING + 2]);
+  if constexpr (WithRolling) {
+    LanePointers<const double> rolling;
+    for (std::size_t lane = 0; lane < Lanes::size(); lane++)
+      rolling[lane] = values[lane] + ROLLING_SPRING;
+    history.rolling_spring = gather_rows(rolling);
+  }
   return history;
 }
 #endif
@@ -72,21 +75,18 @@ template <bool WithRolling> EEPA_FUNCTION void store_history(const History &hist
 }
 
 #ifdef EEPA_HAS_LANES
-/// Writes the states of the first `count` lanes.
+/// Writes the states of several contacts.
 template <bool WithRolling>
-EEPA_FUNCTION void store_history(const HistoryOf<Lanes> &history, double *const *values, int count)
+EEPA_FUNCTION void store_history(const HistoryOf<Lanes> &history,
+                                 const LanePointers<double> &values)
 {
-  const auto scatter = [values, count](const Lanes &numbers, int index) {
-    double lane[Lanes::size()];
-    numbers.copy_to(lane, std::experimental::element_aligned);
-    for (int l = 0; l < count; l++) values[l][index] = lane[l];
-  };
-  const auto scatter_spring = [&scatter](const Vector3<Lanes> &spring, int index) {
-    for (int k = 0; k < 3; k++) scatter(spring[k], index + k);
-  };
-  scatter(history.max_overlap, MAX_OVERLAP);
-  scatter_spring(history.tangential_spring, TANGENTIAL_SPRING);
-  if constexpr (WithRolling) scatter_spring(history.rolling_spring, ROLLING_SPRING);
+  const Vector3<Lanes> &spring = history.tangential_spring;
+  scatter_rows_of_4({history.max_overlap, spring[0], spring[1], spring[2]}, values);
+  if constexpr (WithRolling) {
+    const LaneRows rolling(history.rolling_spring);
+    for (std::size_t lane = 0; lane < Lanes::size(); lane++)
+      rolling.store(values[lane] + ROLLING_SPRING, lane);
+  }
 }
 #endif
 

@@ -14,4 +14,11 @@
 #define EEPA_FUNCTION inline
 #endif
 
+/// The same for a lambda; it stands behind the parameters.
+#if defined(__GNUC__) || defined(__clang__)
+#define EEPA_LAMBDA __attribute__((always_inline))
+#else
+#define EEPA_LAMBDA
+#endif
+
 #endif

@@ -107,11 +107,10 @@ struct PlateauLaw {
     const Real pull = s * c.k_adh * plastic_overlap;
     const auto loads = virgin || unloading >= loading;
     const auto adheres = !loads && unloading <= -pull;
-    result.branch = select(loads, branch_of<Real>(Branch::loading),
-                           select(adheres, branch_of<Real>(Branch::adhesive),
-                                  branch_of<Real>(Branch::unloading)));
-    result.force =
-        select(loads, f0 + loading, select(adheres, -pull, f0 + unloading));
+    result.branch = select(
+        loads, branch_of<Real>(Branch::loading),
+        select(adheres, branch_of<Real>(Branch::adhesive), branch_of<Real>(Branch::unloading)));
+    result.force = select(loads, f0 + loading, select(adheres, -pull, f0 + unloading));
     result.coulomb_force = result.force + pull;
     result.coulomb_offset = -f0;
     return result;
@@ -202,9 +201,9 @@ template <class ExponentPolicy> struct LinearLaw {
     const Real remembered = select(adheres, c.adhesive_memory * overlap, max_overlap);
     const Real spring = select(loads, loading, select(adheres, -pull, unloading));
     result.max_overlap = select(virgin, overlap, remembered);
-    result.branch = select(loads, branch_of<Real>(Branch::loading),
-                           select(adheres, branch_of<Real>(Branch::adhesive),
-                                  branch_of<Real>(Branch::unloading)));
+    result.branch = select(
+        loads, branch_of<Real>(Branch::loading),
+        select(adheres, branch_of<Real>(Branch::adhesive), branch_of<Real>(Branch::unloading)));
     result.force = f0 + spring;
     result.coulomb_force = spring + pull;
     result.coulomb_offset = 0.0;

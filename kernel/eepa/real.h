@@ -61,7 +61,9 @@ template <class Real> EEPA_FUNCTION Real raise(const Real &base, double exponent
   if constexpr (std::is_same_v<Real, double>)
     return std::pow(base, exponent);
   else
-    return Real([&](auto lane) { return std::pow(base[lane], exponent); });
+    return Real([&](auto lane) EEPA_LAMBDA {
+      return std::pow(base[lane], exponent);
+    });
 }
 
 /// What a comparison of two Real gives: bool, or one for each lane.

@@ -40,10 +40,9 @@ struct RollingConstant {
   /// \param hysteretic  |f_hys| [force]
   /// \param root_mass_stiffness  sqrt(m* k) [mass/time]
   template <class Real>
-  EEPA_FUNCTION static Vector3<Real> torque(const Coefficients &c, const ScaleOf<Real> &,
-                                            const ContactOf<Real> &contact, const Real &hysteretic,
-                                            const Real &root_mass_stiffness, double,
-                                            Vector3<Real> &)
+  EEPA_FUNCTION static Vector3<Real>
+  torque(const Coefficients &c, const ScaleOf<Real> &, const ContactOf<Real> &contact,
+         const Real &hysteretic, const Real &root_mass_stiffness, double, Vector3<Real> &)
   {
     using std::sqrt;
     const Real &radius = contact.effective_radius;

@@ -8,7 +8,7 @@ namespace eepa {
 
 /// What a spring-dashpot-slider gives.
 template <class Real> struct SliderForce {
-  Vector3<Real> force;      ///< on i, spring and dashpot together, at most `bound` long [force]
+  Vector3<Real> force;     ///< on i, spring and dashpot together, at most `bound` long [force]
   MaskOf<Real> sliding;    ///< whether the bound was reached
 };
 

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// Contacts side by side are the same contacts: every lane gives the bits that a double gives.
+
+#include <eepa/dispatch.h>
+#include <eepa/validation.h>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+#include <vector>
+
+#ifdef EEPA_HAS_LANES
+
+using namespace eepa;
+
+namespace {
+
+constexpr int width = static_cast<int>(Lanes::size());
+
+struct Case {
+  const char *name;
+  LawSettings settings;
+  RollingModel rolling;
+  Damping damping;
+};
+
+/// Numbers from a fixed seed, and contacts made of them.
+class Generator {
+ public:
+  double between(double lowest, double highest)
+  {
+    return lowest + (highest - lowest) * uniform_(engine_);
+  }
+  Vec3 vector(double size)
+  {
+    return {between(-size, size), between(-size, size), between(-size, size)};
+  }
+  Contact contact()
+  {
+    Contact c;
+    c.normal = vector(1.0);
+    c.normal /= c.normal.norm();
+    const double radius_i = between(0.2, 1.0), radius_j = between(0.2, 1.0);
+    c.size = radius_i + radius_j;
+    c.overlap = between(1e-6, 0.05);
+    const double frozen = std::numeric_limits<double>::infinity();
+    c.effective_mass =
+        effective_mass(between(0.1, 2.0), between(0.0, 1.0) < 0.1 ? frozen : between(0.1, 2.0));
+    c.effective_radius = effective_radius(radius_i, radius_j);
+    c.velocity = vector(1.0);
+    c.spin = vector(1.0);
+    c.angular_velocity = vector(1.0);
+    return c;
+  }
+
+ private:
+  std::mt19937_64 engine_{20261125};
+  std::uniform_real_distribution<double> uniform_{0.0, 1.0};
+};
+
+Vector3<Lanes> in_lanes(const Vec3 *vectors)
+{
+  return Vector3<Lanes>(Lanes([&](auto l) {
+                          return vectors[l][0];
+                        }),
+                        Lanes([&](auto l) {
+                          return vectors[l][1];
+                        }),
+                        Lanes([&](auto l) {
+                          return vectors[l][2];
+                        }));
+}
+
+template <class Member> Lanes member(const std::vector<Contact> &contacts, Member m)
+{
+  return Lanes([&](auto l) {
+    return contacts[l].*m;
+  });
+}
+template <class Member> Vector3<Lanes> vector_member(const std::vector<Contact> &contacts, Member m)
+{
+  Vec3 vectors[width];
+  for (int l = 0; l < width; l++) vectors[l] = contacts[l].*m;
+  return in_lanes(vectors);
+}
+
+ContactOf<Lanes> side_by_side(const std::vector<Contact> &contacts)
+{
+  ContactOf<Lanes> c;
+  c.normal = vector_member(contacts, &Contact::normal);
+  c.overlap = member(contacts, &Contact::overlap);
+  c.size = member(contacts, &Contact::size);
+  c.effective_mass = member(contacts, &Contact::effective_mass);
+  c.effective_radius = member(contacts, &Contact::effective_radius);
+  c.velocity = vector_member(contacts, &Contact::velocity);
+  c.spin = vector_member(contacts, &Contact::spin);
+  c.angular_velocity = vector_member(contacts, &Contact::angular_velocity);
+  return c;
+}
+
+void expect_bits(double lane, double one, const char *what)
+{
+  // 0 and -0 are the same force
+  EXPECT_TRUE(lane == one || (std::isnan(lane) && std::isnan(one)))
+      << what << ": " << lane << " and " << one << " differ by " << lane - one;
+}
+void expect_bits(const Vector3<Lanes> &lanes, int l, const Vec3 &one, const char *what)
+{
+  for (int k = 0; k < 3; k++) expect_bits(lanes[k][l], one[k], what);
+}
+
+class SideBySide : public testing::TestWithParam<Case> {};
+
+TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
+{
+  const Case &given = GetParam();
+  with_law(given.settings, given.rolling, [&](auto law) {
+    using ContactLaw = decltype(law);
+    Generator generator;
+    int branches[4] = {0, 0, 0, 0}, sliding = 0, sticking = 0;
+    for (int round = 0; round < 200; round++) {
+      Parameters p;
+      p.k1 = generator.between(1e3, 1e4);
+      p.k2 = (given.settings.law == Law::plateau ? 2.0 : generator.between(1.0, 5.0)) * p.k1;
+      p.k_adh = generator.between(0.0, 1.0) * p.k1;
+      p.f0 = -generator.between(0.0, 5.0);
+      p.mu = generator.between(0.0, 1.0);
+      p.kt_given = true;
+      p.kt = generator.between(0.0, 1.0) * p.k1;
+      p.damping = given.damping;
+      p.restitution = generator.between(0.0, 1.0);
+      p.viscous_normal = generator.between(0.0, 10.0);
+      p.viscous_tangential = generator.between(0.0, 10.0);
+      p.rolling = given.rolling;
+      p.mu_r = generator.between(0.0, 0.2);
+      p.kr = generator.between(0.0, 1e3);
+      p.rolling_viscous = generator.between(0.0, 1.0);
+      const Coefficients c = resolve(p, given.settings);
+
+      std::vector<History> one(width);
+      for (auto &history : one) {
+        if (generator.between(0.0, 1.0) < 0.2) continue;    // virgin
+        history.max_overlap = generator.between(0.0, 0.06);
+        history.tangential_spring = generator.vector(0.01);
+        history.rolling_spring = generator.vector(0.01);
+      }
+      // through a driver's flat arrays, where LAMMPS may have turned every sign
+      std::vector<double> flat(width * SIZE_WITH_ROLLING);
+      LanePointers<double> at;
+      for (int l = 0; l < width; l++) {
+        at[l] = flat.data() + l * ContactLaw::history_size;
+        store_history<ContactLaw::Rolling::has_spring>(one[l], at[l]);
+      }
+      for (int step = 0; step < 10; step++) {
+        std::vector<Contact> contacts(width);
+        for (auto &contact : contacts) contact = generator.contact();
+        const ContactOf<Lanes> together = side_by_side(contacts);
+        HistoryOf<Lanes> history = load_history<ContactLaw::Rolling::has_spring>(at);
+        const bool limit = round % 2;
+        const auto response = ContactLaw::evaluate(c, limit, together, 1e-3, history);
+        store_history<ContactLaw::Rolling::has_spring>(history, at);
+        const Vector3<Lanes> force = ContactLaw::force_on_i(response, together);
+        const Vector3<Lanes> moment = ContactLaw::tangential_moment(response, together);
+        for (int l = 0; l < width; l++) {
+          const Response alone = ContactLaw::evaluate(c, limit, contacts[l], 1e-3, one[l]);
+          expect_bits(response.normal_force[l], alone.normal_force, "normal force");
+          expect_bits(response.hysteretic_force[l], alone.hysteretic_force, "f_hys");
+          expect_bits(response.friction_bound[l], alone.friction_bound, "bound");
+          expect_bits(response.tangential_force, l, alone.tangential_force, "tangential force");
+          expect_bits(force, l, ContactLaw::force_on_i(alone, contacts[l]), "force");
+          expect_bits(moment, l, ContactLaw::tangential_moment(alone, contacts[l]), "moment");
+          if constexpr (ContactLaw::has_rolling)
+            expect_bits(response.rolling_torque, l, alone.rolling_torque, "rolling torque");
+          EXPECT_EQ(response.branch[l], static_cast<double>(alone.branch));
+          EXPECT_EQ(response.sliding[l], alone.sliding);
+          const auto stored =
+              load_history<ContactLaw::Rolling::has_spring>(static_cast<const double *>(at[l]));
+          expect_bits(stored.max_overlap, one[l].max_overlap, "delta_max");
+          for (int k = 0; k < 3; k++) {
+            expect_bits(stored.tangential_spring[k], one[l].tangential_spring[k], "spring");
+            if (ContactLaw::Rolling::has_spring)
+              expect_bits(stored.rolling_spring[k], one[l].rolling_spring[k], "rolling spring");
+          }
+          branches[static_cast<int>(alone.branch)]++;
+          (alone.sliding ? sliding : sticking)++;
+        }
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+    // the cases must not all be of one kind
+    for (const Branch branch : {Branch::loading, Branch::unloading, Branch::adhesive})
+      EXPECT_GT(branches[static_cast<int>(branch)], 50);
+    EXPECT_GT(sliding, 50);
+    EXPECT_GT(sticking, 50);
+  });
+}
+
+LawSettings settings(Law law, double exponent, bool scaled)
+{
+  LawSettings s;
+  s.law = law;
+  s.exponent = exponent;
+  s.scaled = scaled;
+  s.reference_diameter = 0.7;
+  return s;
+}
+
+const Case cases[] = {
+    {"plateau", settings(Law::plateau, 1.0, false), RollingModel::none, Damping::restitution},
+    {"plateau_scaled_sds", settings(Law::plateau, 1.0, true), RollingModel::sds, Damping::viscous},
+    {"linear", settings(Law::linear, 1.0, false), RollingModel::none, Damping::viscous},
+    {"linear_scaled_constant", settings(Law::linear, 1.0, true), RollingModel::constant,
+     Damping::restitution},
+    {"linear_sds", settings(Law::linear, 1.0, false), RollingModel::sds, Damping::restitution},
+    {"exponent_scaled", settings(Law::linear, 1.5, true), RollingModel::none, Damping::restitution},
+    {"exponent_constant", settings(Law::linear, 1.5, false), RollingModel::constant,
+     Damping::viscous},
+    {"exponent_scaled_sds", settings(Law::linear, 2.0, true), RollingModel::sds,
+     Damping::restitution},
+};
+INSTANTIATE_TEST_SUITE_P(Laws, SideBySide, testing::ValuesIn(cases), [](const auto &info) {
+  return std::string(info.param.name);
+});
+
+TEST(LaneRows, AddSubtractAndStoreTheRowOfTheirLane)
+{
+  Vec3 vectors[width];
+  for (int l = 0; l < width; l++) vectors[l] = Vec3(1.0 + l, 10.0 + l, 100.0 + l);
+  const LaneRows rows(in_lanes(vectors));
+  for (int l = 0; l < width; l++) {
+    double row[5] = {1.0, 2.0, 3.0, 4.0, 5.0};
+    rows.add_to(row, l);
+    rows.subtract_from(row + 1, l);
+    EXPECT_EQ(row[0], 2.0 + l);
+    EXPECT_EQ(row[1], 2.0 + 10.0 + l - (1.0 + l));
+    EXPECT_EQ(row[2], 3.0 + 100.0 + l - (10.0 + l));
+    EXPECT_EQ(row[3], 4.0 - (100.0 + l));
+    EXPECT_EQ(row[4], 5.0);
+    EXPECT_EQ(rows[l], vectors[l]);
+  }
+}
+
+}    // namespace
+
+#endif
