@@ -10,6 +10,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first: there may be no display)
 import numpy as np  # noqa: E402
+from matplotlib.ticker import (FormatStrFormatter, LogLocator, NullFormatter,  # noqa: E402
+                               NullLocator)
 
 from collapse.report import COLOURS  # noqa: E402
 
@@ -44,7 +46,8 @@ def ratios(cases: Sequence[str], styles: Sequence[str],
         axis.set_xticks(range(len(cases)), cases)
         axis.set_title(f"{what} time / that of gran/hooke/history", fontsize=10)
         axis.grid(axis="y", alpha=0.25, linewidth=0.5)
-    axes[0].legend(fontsize=8, frameon=False)
+        axis.set_ylim(top=1.3 * axis.get_ylim()[1])    # room for the legend
+        axis.legend(fontsize=8, frameon=False, loc="upper left", ncols=2)
     save(figure, path)
 
 
@@ -103,7 +106,10 @@ def powers(x: Sequence[float], series: Mapping[str, Sequence[float]], fits: Mapp
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.set_xticks(x, [f"{d:g}" for d in x])
-    axis.minorticks_off()
+    axis.xaxis.set_minor_locator(NullLocator())
+    axis.yaxis.set_minor_formatter(NullFormatter())
+    axis.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.yaxis.set_major_formatter(FormatStrFormatter("%g"))
     axis.set_xlabel("diameter (mm)")
     axis.set_ylabel("wall time (s)")
     axis.grid(alpha=0.25, linewidth=0.5)

@@ -57,10 +57,22 @@ inline eepa_bench::Counted pow(eepa_bench::Counted x, eepa_bench::Counted y)
 {
   return eepa_bench::Counted::count.powers++, pow(x.value, y.value);
 }
-inline eepa_bench::Counted log(eepa_bench::Counted x) { return log(x.value); }
-inline eepa_bench::Counted fabs(eepa_bench::Counted x) { return fabs(x.value); }
-inline bool isinf(eepa_bench::Counted x) { return isinf(x.value); }
-inline bool isfinite(eepa_bench::Counted x) { return isfinite(x.value); }
+inline eepa_bench::Counted log(eepa_bench::Counted x)
+{
+  return log(x.value);
+}
+inline eepa_bench::Counted fabs(eepa_bench::Counted x)
+{
+  return fabs(x.value);
+}
+inline bool isinf(eepa_bench::Counted x)
+{
+  return isinf(x.value);
+}
+inline bool isfinite(eepa_bench::Counted x)
+{
+  return isfinite(x.value);
+}
 }    // namespace std
 
 namespace Eigen {

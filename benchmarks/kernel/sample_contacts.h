@@ -45,10 +45,7 @@ struct Choice {
   eepa::LawSettings settings;
   eepa::Parameters parameters;
   std::string law, rolling;
-  std::string name(Kind kind) const
-  {
-    return law + "/" + name_of(kind) + "/" + rolling;
-  }
+  std::string name(Kind kind) const { return law + "/" + name_of(kind) + "/" + rolling; }
 };
 
 /// Every law with every rolling model: a powder of 1 mm, as in examples/scale_collapse.
@@ -77,8 +74,8 @@ inline std::vector<Choice> all_choices()
       p.kt = 2.0 / 7.0 * 5.0e3;
       p.restitution = 0.3;
       p.rolling = rolling == 0 ? eepa::RollingModel::none
-                               : rolling == 1 ? eepa::RollingModel::constant
-                                              : eepa::RollingModel::sds;
+          : rolling == 1       ? eepa::RollingModel::constant
+                               : eepa::RollingModel::sds;
       p.mu_r = rolling == 1 ? 1.0e-3 : 1.0e-2;
       if (rolling == 2) {
         p.kr = 1.0e3;
@@ -98,10 +95,7 @@ class Numbers {
     state = state * 6364136223846793005ULL + 1442695040888963407ULL;
     return static_cast<Plain>(state >> 11) * 0x1p-53;
   }
-  Plain between(Plain low, Plain high)
-  {
-    return low + (high - low) * (*this)();
-  }
+  Plain between(Plain low, Plain high) { return low + (high - low) * (*this)(); }
   Vec3 in_cube()
   {
     const Plain x = between(-1.0, 1.0), y = between(-1.0, 1.0), z = between(-1.0, 1.0);
@@ -132,16 +126,17 @@ std::vector<Sample> make_samples(const Choice &choice, Kind kind, std::size_t co
     Kind own = kind;
     if (kind == Kind::mixed) {    // about what the dense compression has
       const Plain which = random();
-      own = which < 0.6 ? Kind::loading
-                        : which < 0.85 ? Kind::unloading
-                                       : which < 0.9 ? Kind::adhesive : Kind::sliding;
+      own = which < 0.6  ? Kind::loading
+          : which < 0.85 ? Kind::unloading
+          : which < 0.9  ? Kind::adhesive
+                         : Kind::sliding;
     }
     eepa::Contact &contact = sample.contact;
     const Plain radius = random.between(0.4e-3, 0.6e-3), other = random.between(0.4e-3, 0.6e-3);
     contact.size = radius + other;
     contact.overlap = contact.size * random.between(0.002, 0.02);
-    contact.effective_mass = 2000.0 * 4.18879 * eepa::effective_mass(radius * radius * radius,
-                                                                      other * other * other);
+    contact.effective_mass =
+        2000.0 * 4.18879 * eepa::effective_mass(radius * radius * radius, other * other * other);
     contact.effective_radius = eepa::effective_radius(radius, other);
     Vec3 normal = random.in_cube() + Vec3(0.1, 0.2, 0.3);
     contact.normal = normal / std::sqrt(normal.squaredNorm());
