@@ -86,10 +86,10 @@ def run_cost(s: Session) -> None:
 def run_instructions(s: Session) -> None:
     """instructions a contact, by callgrind"""
     if not instructions.available():
-        print("valgrind is not there: no instructions are counted")
+        print("valgrind is not there (on Debian: apt-get install valgrind): nothing is counted")
         return
     packing = 1000 if s.quick else 4000
-    sizes = [cases.compression(s.program, s.work, packing).lasting(100, 0)]
+    sizes = [cases.compression(s.program, s.work, packing).lasting(50, 0)]
     if not s.quick:
         sizes.insert(0, cases.chute(s.lammps_source).lasting(20, 0))
     rows: List[Dict] = []

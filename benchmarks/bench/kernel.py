@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Dict, List, Mapping, Sequence, Tuple
 
 from . import plots
-from .lammps import Program, usable_cores
+from .lammps import Program, bind
 from .output import text_table
 from .statistics import median
 
@@ -67,11 +67,14 @@ def measure(program: Program, build: Path, repetitions: int,
     words = [str(build / "bench_kernel"), f"--benchmark_repetitions={repetitions}",
              "--benchmark_enable_random_interleaving=true", f"--benchmark_min_time={min_time}",
              "--benchmark_format=json"]
-    if program.bind:
-        words[:0] = ["taskset", "-c", str(usable_cores()[-1])]
-    done = subprocess.run(words, check=True, text=True, stdout=subprocess.PIPE,
-                          stderr=subprocess.DEVNULL)
-    said = json.loads(done.stdout)
+    with subprocess.Popen(words, text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL) as process:
+        if program.bind:
+            bind(process)
+        text = process.communicate()[0]
+    if process.returncode != 0:
+        raise subprocess.CalledProcessError(process.returncode, words)
+    said = json.loads(text)
     return read_benchmarks(said["benchmarks"]), said["context"]
 
 
