@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -271,8 +272,27 @@ double PairGranEepa::init_one(int i, int j)
                    max_radius_dynamic[i] + max_radius_frozen[j]});
 }
 
+void PairGranEepa::choose_classes()
+{
+  // pair_coeff * * gives many pairs of types the same coefficients
+  coefficient_classes.clear();
+  class_of_pair.assign(coefficients.size(), 0);
+  for (int i = 1; i <= atom->ntypes; i++) {
+    for (int j = i; j <= atom->ntypes; j++) {
+      const eepa::Coefficients &own = coefficients[pair_index(i, j)];
+      const auto same = std::find_if(
+          coefficient_classes.begin(), coefficient_classes.end(),
+          [&own](const auto &other) { return std::memcmp(&own, &other, sizeof(own)) == 0; });
+      class_of_pair[pair_index(i, j)] = class_of_pair[pair_index(j, i)] =
+          static_cast<int>(same - coefficient_classes.begin());
+      if (same == coefficient_classes.end()) coefficient_classes.push_back(own);
+    }
+  }
+}
+
 void PairGranEepa::setup()
 {
+  choose_classes();
   if (style.time_step_check == eepa::TimeStepCheck::off) return;
   const TimeStepBound bound = largest_time_step();
   if (update->dt <= bound.time_step) return;
@@ -417,7 +437,6 @@ void PairGranEepa::unpack_forward_comm(int n, int first, double *buf)
 double PairGranEepa::memory_usage()
 {
   return Pair::memory_usage() + masses.memory_usage() +
-      static_cast<double>(touching.capacity() * sizeof(int) +
-                          parameters.capacity() * sizeof(eepa::Parameters) +
+      static_cast<double>(parameters.capacity() * sizeof(eepa::Parameters) +
                           coefficients.capacity() * sizeof(eepa::Coefficients));
 }

@@ -11,8 +11,10 @@ PairStyle(gran/eepa,PairGranEepa);
 #include "pair.h"
 
 #include "contact_masses.h"
+#include "contact_slice.h"
 #include "eepa_commands.h"
 #include "energy_ledger.h"
+#include "particle_contact.h"
 
 #include <eepa/coefficients.h>
 #include <eepa/contact.h>
@@ -109,6 +111,8 @@ class PairGranEepa : public Pair {
   eepa::StyleArguments style;
   std::vector<eepa::Parameters> parameters;                 // as given or mixed, (ntypes+1)^2
   std::vector<eepa::Coefficients> coefficients;             // resolved, (ntypes+1)^2
+  std::vector<eepa::Coefficients> coefficient_classes;      // the different ones among them
+  std::vector<int> class_of_pair;                           // (ntypes+1)^2
   eepa::RollingModel rolling = eepa::RollingModel::none;    // of all types together
   ContactMasses masses;
   double dt = 0.0;
@@ -116,20 +120,25 @@ class PairGranEepa : public Pair {
   class FixNeighHistory *fix_history = nullptr;
   std::string history_id;    // of fix_history, or with _DUMMY of its place holder
   std::vector<double> max_radius_dynamic, max_radius_frozen;    // by type
-  std::vector<int> touching;    // neighbours of one particle that it touches
   bool plateau_warned = false;
   int restart_history_size = 0;    // of the restart file, 0 without
 
   EnergyLedger ledger;
   bool keep_ledger = false;
 
-  // chosen once a run from the laws of the kernel; the accounting one also tallies energy and
-  // virial and keeps the ledger, when asked
-  typedef void (PairGranEepa::*Loop)();
-  Loop loop = nullptr, accounting_loop = nullptr;
+  // the law's part of a force call, chosen once a run; `fully` also takes set-up calls, tallies
+  // energy and virial, keeps the ledger and weakens contacts between bonded particles
+  typedef void (PairGranEepa::*Evaluate)(ContactSlice &, const FoundContact *, int,
+                                         const eepa::Coefficients &);
+  Evaluate plainly = nullptr, fully = nullptr, evaluate = nullptr;
+  void (PairGranEepa::*book_opening)(ContactSlice &, int, int, const double *) = nullptr;
   typedef double (PairGranEepa::*Single)(const eepa::Coefficients &, const eepa::Contact &,
                                          eepa::History &, double &);
   Single single_law = nullptr;
+
+  // of the force call that is under way
+  ParticleArrays particles;
+  std::vector<ContactSlice> slices;
 
   int pair_index(int itype, int jtype) const
   {
@@ -138,17 +147,29 @@ class PairGranEepa : public Pair {
   int ntypes_allocated = 0;
   void allocate();
   void choose_law();
+  void choose_single();
+  void choose_classes();
   void init_history();
   void init_radii();
   int history_size() const;
   void warn(const eepa::Words &);
   int find_history(int i, int j, const double *&values, double &sign) const;
 
-  template <class ContactLaw, bool Accounting> void contact_loop();
+  ParticleArrays particle_arrays();
+  bool bonds_weaken_contacts() const;
+  /// Has every slice of the neighbour list worked through.
+  virtual void work_through_list();
+  void work_through(ContactSlice &);
+  void open_contact(ContactSlice &, int i, int place);
+  void evaluate_block(ContactSlice &, int count);
   template <class ContactLaw>
-  void book_opening(const struct ParticleArrays &, int i, int j, const double *values);
+  void evaluate_plainly(ContactSlice &, const FoundContact *, int, const eepa::Coefficients &);
+  template <class ContactLaw>
+  void evaluate_fully(ContactSlice &, const FoundContact *, int, const eepa::Coefficients &);
+  template <class ContactLaw>
+  void book_opening_of(ContactSlice &, int i, int j, const double *values);
   double share_of_pair(int j) const;
-  [[noreturn]] void stop_at_overlap(int i, int j, double overlap) const;
+  [[noreturn]] void stop_at_overlap(int i, int j) const;
   template <class ContactLaw>
   double single_contact(const eepa::Coefficients &, const eepa::Contact &, eepa::History &,
                         double &);

@@ -105,19 +105,21 @@ EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
 /// With s = d/d_ref stiffnesses go with s, forces and given dashpots with s^2 (article,
 /// section 3). For an exponent n the stiffness of force/length^n goes with s^(2-n); that is
 /// written as s times (delta/s)^(n-1) delta, which is the same and exact for s a power of 2.
-struct Scale {
-  double size = 1.0;            ///< s
-  double inverse_size = 1.0;    ///< 1/s
-  EEPA_FUNCTION double stiffness() const { return size; }
-  EEPA_FUNCTION double force() const { return size * size; }
+template <class Real> struct ScaleOf {
+  Real size = 1.0;            ///< s
+  Real inverse_size = 1.0;    ///< 1/s
+  EEPA_FUNCTION Real stiffness() const { return size; }
+  EEPA_FUNCTION Real force() const { return size * size; }
 };
+using Scale = ScaleOf<double>;
 
 /// The scale of a contact.
 /// \param c  coefficients of its types
 /// \param size  d: R_i + R_j between particles, 2 R_i at a wall [length], > 0
-EEPA_FUNCTION Scale contact_scale(const Coefficients &c, double size)
+template <class Real>
+EEPA_FUNCTION ScaleOf<Real> contact_scale(const Coefficients &c, const Real &size)
 {
-  Scale scale;
+  ScaleOf<Real> scale;
   if (c.inverse_reference_diameter > 0.0) {
     scale.size = size * c.inverse_reference_diameter;
     scale.inverse_size = 1.0 / scale.size;

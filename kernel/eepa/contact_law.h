@@ -13,15 +13,16 @@ namespace eepa {
 
 /// What a contact does to its partners. Forces and rolling torque act on i, their opposites
 /// on j; the tangential force also turns both, see torque_on().
-struct Response {
-  double normal_force;        ///< f_hys + f_nd along u [force]
-  double hysteretic_force;    ///< f_hys [force]
-  Vec3 tangential_force;      ///< on i [force]
-  Vec3 rolling_torque;        ///< on i [force length]; unset when the model is RollingNone
-  double friction_bound;      ///< what |f_t| can not exceed, >= 0 [force]
-  Branch branch;
-  bool sliding;
+template <class Real> struct ResponseOf {
+  Real normal_force;                 ///< f_hys + f_nd along u [force]
+  Real hysteretic_force;             ///< f_hys [force]
+  Vector3<Real> tangential_force;    ///< on i [force]
+  Vector3<Real> rolling_torque;      ///< on i [force length]; unset when the model is RollingNone
+  Real friction_bound;               ///< what |f_t| can not exceed, >= 0 [force]
+  BranchOf<Real> branch;
+  MaskOf<Real> sliding;
 };
+using Response = ResponseOf<double>;
 
 /// Recoverable energies of a contact [force length]
 struct StoredEnergy {
@@ -49,51 +50,54 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
   /// \param time_step  by which the springs are wound [time]; 0 in a set-up call, after which
   ///        the caller must throw the returned history away
   /// \param[in,out] history  the state before and after
-  EEPA_FUNCTION static Response evaluate(const Coefficients &c, bool limit_damping,
-                                         const Contact &contact, double time_step, History &history)
+  template <class Real>
+  EEPA_FUNCTION static ResponseOf<Real> evaluate(const Coefficients &c, bool limit_damping,
+                                                 const ContactOf<Real> &contact, double time_step,
+                                                 HistoryOf<Real> &history)
   {
-    Response response;
-    const Scale scale = contact_scale(c, contact.size);
-    const NormalForce normal = NormalLaw::force(c, scale, contact.overlap, history.max_overlap);
+    using std::abs;
+    using std::sqrt;
+    ResponseOf<Real> response;
+    const Real none(0.0);
+    const ScaleOf<Real> scale = contact_scale(c, contact.size);
+    const NormalForceOf<Real> normal =
+        NormalLaw::force(c, scale, contact.overlap, history.max_overlap);
     history.max_overlap = normal.max_overlap;
     response.branch = normal.branch;
     response.hysteretic_force = normal.force;
 
     // dashpots; the stiffness of n != 1 is the loading branch's tangent
-    double stiffness = scale.stiffness() * c.k1;
+    Real stiffness = scale.stiffness() * c.k1;
     if constexpr (!NormalLaw::Exponent::is_unit)
       stiffness *= NormalLaw::Exponent::slope(contact.overlap, c, scale);
-    const double root_mass_stiffness = std::sqrt(contact.effective_mass * stiffness);
-    const double normal_part = c.restitution_damping * root_mass_stiffness;
-    double tangential_part = normal_part * c.tangential_ratio;
+    const Real root_mass_stiffness = sqrt(contact.effective_mass * stiffness);
+    const Real normal_part = c.restitution_damping * root_mass_stiffness;
+    Real tangential_part = normal_part * c.tangential_ratio;
     if constexpr (!NormalLaw::Exponent::is_unit)
       tangential_part =
-          c.restitution_damping * std::sqrt(contact.effective_mass * scale.stiffness() * c.kt);
-    const double viscous_normal = normal_part + scale.force() * c.viscous_normal;
-    const double viscous_tangential = tangential_part + scale.force() * c.viscous_tangential;
+          c.restitution_damping * sqrt(contact.effective_mass * scale.stiffness() * c.kt);
+    const Real viscous_normal = normal_part + scale.force() * c.viscous_normal;
+    const Real viscous_tangential = tangential_part + scale.force() * c.viscous_tangential;
 
-    const double normal_velocity = contact.velocity.dot(contact.normal);
+    const Real normal_velocity = dot(contact.velocity, contact.normal);
     response.normal_force = normal.force - viscous_normal * normal_velocity;
-    if (limit_damping) {
-      const double least = normal.force < 0.0 ? normal.force : 0.0;
-      if (response.normal_force < least) response.normal_force = least;
-    }
+    if (limit_damping)
+      response.normal_force = larger(response.normal_force, smaller(normal.force, none));
 
     // friction; the bound has f_hys, never the dashpot
-    const double bound = c.mu * normal.coulomb_force + normal.coulomb_offset;
-    response.friction_bound = bound > 0.0 ? bound : 0.0;
-    const Vec3 velocity = tangential_velocity(contact, normal_velocity);
-    Vec3 &spring = history.tangential_spring;
-    spring = rotate_into_plane(spring, contact.normal) + time_step * velocity;
-    const SliderForce friction =
-        slider_force(scale.stiffness() * c.kt, scale.inverse_size * c.inverse_kt,
-                     viscous_tangential, response.friction_bound, velocity, spring);
+    response.friction_bound = larger<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, none);
+    const Vector3<Real> velocity = tangential_velocity(contact, normal_velocity);
+    Vector3<Real> &spring = history.tangential_spring;
+    spring = rotate_into_plane(spring, contact.normal) + Real(time_step) * velocity;
+    const SliderForce<Real> friction =
+        slider_force<Real>(scale.stiffness() * c.kt, scale.inverse_size * c.inverse_kt,
+                           viscous_tangential, response.friction_bound, velocity, spring);
     response.tangential_force = friction.force;
     response.sliding = friction.sliding;
 
     if constexpr (has_rolling)
       response.rolling_torque =
-          RollingLaw::torque(c, scale, contact, std::fabs(normal.force), root_mass_stiffness,
+          RollingLaw::torque(c, scale, contact, Real(abs(normal.force)), root_mass_stiffness,
                              time_step, history.rolling_spring);
     return response;
   }
@@ -114,13 +118,17 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
   }
 
   /// Force on i.
-  EEPA_FUNCTION static Vec3 force_on_i(const Response &response, const Contact &contact)
+  template <class Real>
+  EEPA_FUNCTION static Vector3<Real> force_on_i(const ResponseOf<Real> &response,
+                                                const ContactOf<Real> &contact)
   {
     return response.normal_force * contact.normal + response.tangential_force;
   }
 
   /// u x f_t: times -lever_arm() it is the tangential force's torque on either partner.
-  EEPA_FUNCTION static Vec3 tangential_moment(const Response &response, const Contact &contact)
+  template <class Real>
+  EEPA_FUNCTION static Vector3<Real> tangential_moment(const ResponseOf<Real> &response,
+                                                       const ContactOf<Real> &contact)
   {
     return contact.normal.cross(response.tangential_force);
   }

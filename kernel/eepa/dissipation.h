@@ -56,7 +56,7 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
   Dissipation lost;
   const Scale scale = contact_scale(c, contact.size);
   const double share = first ? 0.75 : 1.0;
-  const double normal_velocity = contact.velocity.dot(contact.normal);
+  const double normal_velocity = dot(contact.velocity, contact.normal);
   // a contact that starts with an overlap (a packing's first step) was not loaded up to it
   double loaded = before.max_overlap;
   if (loaded == 0.0) {
@@ -114,7 +114,7 @@ EEPA_FUNCTION Dissipation dissipation_of_opening(const Coefficients &c, const Co
     lost.rolling = spring_energy(scale.stiffness() * c.kr, last.rolling_spring);
   if constexpr (ContactLaw::Normal::Exponent::is_unit) {
     // for n != 1 the dashpot fades out with the overlap
-    const double normal_velocity = contact.velocity.dot(contact.normal);
+    const double normal_velocity = dot(contact.velocity, contact.normal);
     const double viscous =
         c.restitution_damping * std::sqrt(contact.effective_mass * scale.stiffness() * c.k1) +
         scale.force() * c.viscous_normal;

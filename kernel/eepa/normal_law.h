@@ -5,26 +5,41 @@
 #include "coefficients.h"
 
 #include <cmath>
+#include <type_traits>
 
 namespace eepa {
 
 /// The branch of the hysteretic force that a contact is on.
 enum class Branch : int { loading = 1, unloading = 2, adhesive = 3 };
 
+/// The branch of a contact: for Lanes its number, as a double in each lane.
+template <class Real>
+using BranchOf = std::conditional_t<std::is_same_v<Real, double>, Branch, Real>;
+
+template <class Real> EEPA_FUNCTION BranchOf<Real> branch_of(Branch branch)
+{
+  if constexpr (std::is_same_v<Real, double>)
+    return branch;
+  else
+    return BranchOf<Real>(static_cast<double>(static_cast<int>(branch)));
+}
+
 /// What a normal law says of one overlap.
-struct NormalForce {
-  double force;             ///< f_hys, positive repels [force]
-  double coulomb_force;     ///< what mu multiplies in the friction bound [force]
-  double coulomb_offset;    ///< what is added to the bound unmultiplied [force]
-  double max_overlap;       ///< the delta_max to remember [length]
-  Branch branch;
+template <class Real> struct NormalForceOf {
+  Real force;             ///< f_hys, positive repels [force]
+  Real coulomb_force;     ///< what mu multiplies in the friction bound [force]
+  Real coulomb_offset;    ///< what is added to the bound unmultiplied [force]
+  Real max_overlap;       ///< the delta_max to remember [length]
+  BranchOf<Real> branch;
 };
+using NormalForce = NormalForceOf<double>;
 
 /// Power policy of exponent 1: p(delta) = delta.
 struct UnitExponent {
   static constexpr bool is_unit = true;
   /// p(delta) such that s k p(delta) is the spring force of a contact of scale s
-  EEPA_FUNCTION static double power(double overlap, const Coefficients &, const Scale &)
+  template <class Real>
+  EEPA_FUNCTION static Real power(const Real &overlap, const Coefficients &, const ScaleOf<Real> &)
   {
     return overlap;
   }
@@ -34,23 +49,31 @@ struct UnitExponent {
     return overlap * fraction;
   }
   /// dp/d(delta)
-  EEPA_FUNCTION static double slope(double, const Coefficients &, const Scale &) { return 1.0; }
+  template <class Real>
+  EEPA_FUNCTION static Real slope(const Real &, const Coefficients &, const ScaleOf<Real> &)
+  {
+    return 1.0;
+  }
 };
 
 /// Power policy of a general exponent n: p(delta) = delta (delta/s)^(n-1).
 struct GeneralExponent {
   static constexpr bool is_unit = false;
-  EEPA_FUNCTION static double power(double overlap, const Coefficients &c, const Scale &scale)
+  template <class Real>
+  EEPA_FUNCTION static Real power(const Real &overlap, const Coefficients &c,
+                                  const ScaleOf<Real> &scale)
   {
-    return overlap * std::pow(overlap * scale.inverse_size, c.exponent - 1.0);
+    return overlap * raise<Real>(overlap * scale.inverse_size, c.exponent - 1.0);
   }
   EEPA_FUNCTION static double scale_overlap(double overlap, double fraction, const Coefficients &c)
   {
     return overlap * std::pow(fraction, 1.0 / c.exponent);
   }
-  EEPA_FUNCTION static double slope(double overlap, const Coefficients &c, const Scale &scale)
+  template <class Real>
+  EEPA_FUNCTION static Real slope(const Real &overlap, const Coefficients &c,
+                                  const ScaleOf<Real> &scale)
   {
-    return c.exponent * std::pow(overlap * scale.inverse_size, c.exponent - 1.0);
+    return c.exponent * raise<Real>(overlap * scale.inverse_size, c.exponent - 1.0);
   }
 };
 
@@ -68,29 +91,27 @@ struct PlateauLaw {
 
   /// \param overlap  delta > 0 [length]
   /// \param max_overlap  remembered delta_max, 0 for a virgin contact [length]
-  EEPA_FUNCTION static NormalForce force(const Coefficients &c, const Scale &scale, double overlap,
-                                         double max_overlap)
+  template <class Real>
+  EEPA_FUNCTION static NormalForceOf<Real> force(const Coefficients &c, const ScaleOf<Real> &scale,
+                                                 const Real &overlap, const Real &max_overlap)
   {
-    NormalForce result;
+    NormalForceOf<Real> result;
     // the comparison, not the arithmetic below, decides that a contact at its largest overlap loads
-    const bool virgin = overlap >= max_overlap;
-    result.max_overlap = virgin ? overlap : max_overlap;
-    const double s = scale.stiffness();
-    const double f0 = scale.force() * c.f0;
-    const double plastic_overlap = c.plastic_fraction * result.max_overlap;
-    const double loading = s * c.k1 * overlap;
-    const double unloading = s * c.k2 * (overlap - plastic_overlap);
-    const double pull = s * c.k_adh * plastic_overlap;
-    if (virgin || unloading >= loading) {
-      result.branch = Branch::loading;
-      result.force = f0 + loading;
-    } else if (unloading <= -pull) {
-      result.branch = Branch::adhesive;
-      result.force = -pull;
-    } else {
-      result.branch = Branch::unloading;
-      result.force = f0 + unloading;
-    }
+    const auto virgin = overlap >= max_overlap;
+    result.max_overlap = select(virgin, overlap, max_overlap);
+    const Real s = scale.stiffness();
+    const Real f0 = scale.force() * c.f0;
+    const Real plastic_overlap = c.plastic_fraction * result.max_overlap;
+    const Real loading = s * c.k1 * overlap;
+    const Real unloading = s * c.k2 * (overlap - plastic_overlap);
+    const Real pull = s * c.k_adh * plastic_overlap;
+    const auto loads = virgin || unloading >= loading;
+    const auto adheres = !loads && unloading <= -pull;
+    result.branch = select(loads, branch_of<Real>(Branch::loading),
+                           select(adheres, branch_of<Real>(Branch::adhesive),
+                                  branch_of<Real>(Branch::unloading)));
+    result.force =
+        select(loads, f0 + loading, select(adheres, -pull, f0 + unloading));
     result.coulomb_force = result.force + pull;
     result.coulomb_offset = -f0;
     return result;
@@ -161,36 +182,29 @@ template <class ExponentPolicy> struct LinearLaw {
   using Exponent = ExponentPolicy;
 
   /// \copydoc PlateauLaw::force
-  EEPA_FUNCTION static NormalForce force(const Coefficients &c, const Scale &scale, double overlap,
-                                         double max_overlap)
+  template <class Real>
+  EEPA_FUNCTION static NormalForceOf<Real> force(const Coefficients &c, const ScaleOf<Real> &scale,
+                                                 const Real &overlap, const Real &max_overlap)
   {
-    NormalForce result;
-    const bool virgin = overlap >= max_overlap;
-    const double s = scale.stiffness();
-    const double f0 = scale.force() * c.f0;
-    const double power = Exponent::power(overlap, c, scale);
-    const double loading = s * c.k1 * power;
-    const double pull = s * c.k_adh * power;
-    double spring = loading;
-    result.max_overlap = overlap;
-    result.branch = Branch::loading;
-    if (!virgin) {
-      const double plastic_power = c.plastic_fraction * Exponent::power(max_overlap, c, scale);
-      const double unloading = s * c.k2 * (power - plastic_power);
-      result.max_overlap = max_overlap;
-      if (unloading < loading) {
-        // a contact at rest on the adhesive branch stays there, whatever rounding says
-        const double rounding = 1e-14 * s * (c.k2 + c.k_adh) * power;
-        if (unloading <= rounding - pull) {
-          result.branch = Branch::adhesive;
-          spring = -pull;
-          result.max_overlap = c.adhesive_memory * overlap;
-        } else {
-          result.branch = Branch::unloading;
-          spring = unloading;
-        }
-      }
-    }
+    NormalForceOf<Real> result;
+    const auto virgin = overlap >= max_overlap;
+    const Real s = scale.stiffness();
+    const Real f0 = scale.force() * c.f0;
+    const Real power = Exponent::power(overlap, c, scale);
+    const Real loading = s * c.k1 * power;
+    const Real pull = s * c.k_adh * power;
+    const Real plastic_power = c.plastic_fraction * Exponent::power(max_overlap, c, scale);
+    const Real unloading = s * c.k2 * (power - plastic_power);
+    // a contact at rest on the adhesive branch stays there, whatever rounding says
+    const Real rounding = 1e-14 * s * (c.k2 + c.k_adh) * power;
+    const auto loads = virgin || unloading >= loading;
+    const auto adheres = !loads && unloading <= rounding - pull;
+    const Real remembered = select(adheres, c.adhesive_memory * overlap, max_overlap);
+    const Real spring = select(loads, loading, select(adheres, -pull, unloading));
+    result.max_overlap = select(virgin, overlap, remembered);
+    result.branch = select(loads, branch_of<Real>(Branch::loading),
+                           select(adheres, branch_of<Real>(Branch::adhesive),
+                                  branch_of<Real>(Branch::unloading)));
     result.force = f0 + spring;
     result.coulomb_force = spring + pull;
     result.coulomb_offset = 0.0;

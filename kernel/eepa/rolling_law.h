@@ -14,6 +14,12 @@ namespace eepa {
 // that returns the torque on i; j gets the opposite one. `spring` is read and written by Sds
 // only. All act on the part of omega_i - omega_j in the tangent plane: twisting is free.
 
+/// The part of omega_i - omega_j in the tangent plane [1/time]
+template <class Real> EEPA_FUNCTION Vector3<Real> rolling_velocity(const ContactOf<Real> &contact)
+{
+  return contact.angular_velocity - dot(contact.angular_velocity, contact.normal) * contact.normal;
+}
+
 /// No rolling resistance.
 struct RollingNone {
   static constexpr RollingModel model = RollingModel::none;
@@ -33,17 +39,23 @@ struct RollingConstant {
 
   /// \param hysteretic  |f_hys| [force]
   /// \param root_mass_stiffness  sqrt(m* k) [mass/time]
-  EEPA_FUNCTION static Vec3 torque(const Coefficients &c, const Scale &, const Contact &contact,
-                                   double hysteretic, double root_mass_stiffness, double, Vec3 &)
+  template <class Real>
+  EEPA_FUNCTION static Vector3<Real> torque(const Coefficients &c, const ScaleOf<Real> &,
+                                            const ContactOf<Real> &contact, const Real &hysteretic,
+                                            const Real &root_mass_stiffness, double,
+                                            Vector3<Real> &)
   {
-    const double radius = contact.effective_radius;
-    const Vec3 rolling =
-        contact.angular_velocity - contact.angular_velocity.dot(contact.normal) * contact.normal;
-    const double limit = c.mu_r * hysteretic * radius;
-    const double cap = 0.4 * radius * radius * root_mass_stiffness;
-    const double rate_squared = rolling.squaredNorm();
-    if (cap * cap * rate_squared <= limit * limit) return -cap * rolling;
-    return -(limit / std::sqrt(rate_squared)) * rolling;
+    using std::sqrt;
+    const Real &radius = contact.effective_radius;
+    const Vector3<Real> rolling = rolling_velocity(contact);
+    const Real limit = c.mu_r * hysteretic * radius;
+    const Real cap = 0.4 * radius * radius * root_mass_stiffness;
+    const Real rate_squared = squared_length(rolling);
+    const auto limited = cap * cap * rate_squared > limit * limit;
+    Real viscous = cap;
+    if (any(limited))
+      viscous = select(limited, limit / sqrt(select(limited, rate_squared, Real(1.0))), cap);
+    return -viscous * rolling;
   }
 };
 
@@ -58,17 +70,17 @@ struct RollingSds {
   static constexpr RollingModel model = RollingModel::sds;
   static constexpr bool has_spring = true;
 
-  EEPA_FUNCTION static Vec3 torque(const Coefficients &c, const Scale &scale,
-                                   const Contact &contact, double hysteretic, double,
-                                   double time_step, Vec3 &spring)
+  template <class Real>
+  EEPA_FUNCTION static Vector3<Real> torque(const Coefficients &c, const ScaleOf<Real> &scale,
+                                            const ContactOf<Real> &contact, const Real &hysteretic,
+                                            const Real &, double time_step, Vector3<Real> &spring)
   {
-    const double radius = contact.effective_radius;
-    const Vec3 velocity = radius *
-        (contact.angular_velocity - contact.angular_velocity.dot(contact.normal) * contact.normal);
-    spring = rotate_into_plane(spring, contact.normal) + time_step * velocity;
-    const SliderForce roll =
-        slider_force(scale.stiffness() * c.kr, scale.inverse_size * c.inverse_kr,
-                     scale.force() * c.rolling_viscous, c.mu_r * hysteretic, velocity, spring);
+    const Real &radius = contact.effective_radius;
+    const Vector3<Real> velocity = radius * rolling_velocity(contact);
+    spring = rotate_into_plane(spring, contact.normal) + Real(time_step) * velocity;
+    const SliderForce<Real> roll = slider_force<Real>(
+        scale.stiffness() * c.kr, scale.inverse_size * c.inverse_kr,
+        scale.force() * c.rolling_viscous, c.mu_r * hysteretic, velocity, spring);
     return radius * roll.force;
   }
 };

@@ -7,9 +7,9 @@
 namespace eepa {
 
 /// What a spring-dashpot-slider gives.
-struct SliderForce {
-  Vec3 force;      ///< on i, spring and dashpot together, at most `bound` long [force]
-  bool sliding;    ///< whether the bound was reached
+template <class Real> struct SliderForce {
+  Vector3<Real> force;      ///< on i, spring and dashpot together, at most `bound` long [force]
+  MaskOf<Real> sliding;    ///< whether the bound was reached
 };
 
 /// Spring, dashpot and slider in the tangent plane: friction, and rolling sds alike.
@@ -23,29 +23,41 @@ struct SliderForce {
 /// \param bound  >= 0 [force]
 /// \param velocity  v in the tangent plane [length/time]
 /// \param[in,out] spring  xi, rotated and incremented already [length]
-EEPA_FUNCTION SliderForce slider_force(double stiffness, double inverse_stiffness, double viscous,
-                                       double bound, const Vec3 &velocity, Vec3 &spring)
+template <class Real>
+EEPA_FUNCTION SliderForce<Real> slider_force(const Real &stiffness, const Real &inverse_stiffness,
+                                             const Real &viscous, const Real &bound,
+                                             const Vector3<Real> &velocity, Vector3<Real> &spring)
 {
-  SliderForce result;
-  const Vec3 dashpot = -viscous * velocity;
+  using std::sqrt;
+  SliderForce<Real> result;
+  const Vector3<Real> dashpot = -viscous * velocity;
   result.force = dashpot - stiffness * spring;
-  result.sliding = false;
-  const double length_squared = result.force.squaredNorm();
-  if (length_squared > bound * bound) {
-    result.sliding = true;
-    result.force *= bound / std::sqrt(length_squared);
-    if (dashpot.squaredNorm() < bound * bound)
-      spring = inverse_stiffness * (dashpot - result.force);
-    else
-      spring.setZero();
+  const Real length_squared = squared_length(result.force);
+  const Real bound_squared = bound * bound;
+  result.sliding = length_squared > bound_squared;
+  if (any(result.sliding)) {
+    const Real length = sqrt(select(result.sliding, length_squared, Real(1.0)));
+    const Vector3<Real> limited = bound / length * result.force;
+    const Real held = select(squared_length(dashpot) < bound_squared, inverse_stiffness, Real(0.0));
+    const Vector3<Real> left = held * (dashpot - limited);
+    spring = select(result.sliding, left, spring);
+    result.force = select(result.sliding, limited, result.force);
   }
   return result;
+}
+
+/// Likewise, for any expressions that are doubles and a Vec3.
+EEPA_FUNCTION SliderForce<double> slider_force(double stiffness, double inverse_stiffness,
+                                               double viscous, double bound, const Vec3 &velocity,
+                                               Vec3 &spring)
+{
+  return slider_force<double>(stiffness, inverse_stiffness, viscous, bound, velocity, spring);
 }
 
 /// Recoverable energy of a spring, k xi^2 / 2 [force length]
 EEPA_FUNCTION double spring_energy(double stiffness, const Vec3 &spring)
 {
-  return 0.5 * stiffness * spring.squaredNorm();
+  return 0.5 * stiffness * squared_length(spring);
 }
 
 }    // namespace eepa

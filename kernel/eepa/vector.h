@@ -3,6 +3,7 @@
 #define EEPA_VECTOR_H
 
 #include "macros.h"
+#include "real.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -12,7 +13,17 @@
 namespace eepa {
 
 /// A vector of three doubles: 24 bytes, no alignment demand, never on the heap.
-using Vec3 = Eigen::Vector3d;
+using Vec3 = Vector3<double>;
+
+/// a.b, always summed in this order: Eigen's own order is not the same for every kind of number.
+template <class Real> EEPA_FUNCTION Real dot(const Vector3<Real> &a, const Vector3<Real> &b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class Real> EEPA_FUNCTION Real squared_length(const Vector3<Real> &a)
+{
+  return dot(a, a);
+}
 
 /// Carries a tangent-plane vector of the last step over to the plane of this step.
 ///
@@ -21,20 +32,35 @@ using Vec3 = Eigen::Vector3d;
 /// \param spring  vector in the old tangent plane, any dimension
 /// \param normal  present unit normal
 /// \return the rotated vector; zero where `spring` is parallel to `normal`
-EEPA_FUNCTION Vec3 rotate_into_plane(const Vec3 &spring, const Vec3 &normal)
+template <class Real>
+EEPA_FUNCTION Vector3<Real> rotate_into_plane(const Vector3<Real> &spring,
+                                              const Vector3<Real> &normal)
 {
-  const double length_squared = spring.squaredNorm();
+  using std::sqrt;
   // below the smallest normal number a direction is meaningless, and so is the spring
-  if (!(length_squared > 2.3e-308)) return Vec3::Zero();
-  const double along = spring.dot(normal);
-  const Vec3 projected = spring - along * normal;
+  constexpr double meaningless = 2.3e-308;
+  const Real one(1.0), none(0.0);
+  const Real length_squared = squared_length(spring);
+  const Real along = dot(spring, normal);
+  const Vector3<Real> projected = spring - along * normal;
+  const auto there = length_squared > meaningless;
   // from one step to the next the plane turns by next to nothing: 1/sqrt(1 - tilt) as a series,
   // exact to the last digit there, is worth a square root on the longest chain of a contact
-  const double tilt = along * along / length_squared;
-  if (tilt < 1e-5) return (1.0 + tilt * (0.5 + tilt * (0.375 + tilt * 0.3125))) * projected;
-  const double projected_squared = projected.squaredNorm();
-  if (!(projected_squared > 2.3e-308)) return Vec3::Zero();
-  return std::sqrt(length_squared / projected_squared) * projected;
+  const Real tilt = along * along / select(there, length_squared, one);
+  Real factor = 1.0 + tilt * (0.5 + tilt * (0.375 + tilt * 0.3125));
+  const auto steep = tilt >= 1e-5;
+  if (any(steep)) {
+    const Real left = squared_length(projected);
+    const auto turned = left > meaningless;
+    const Real restored = sqrt(length_squared / select(turned, left, one));
+    factor = select(steep, select(turned, restored, none), factor);
+  }
+  return select(there, factor, none) * projected;
+}
+/// Likewise, for any expression that is a Vec3.
+EEPA_FUNCTION Vec3 rotate_into_plane(const Vec3 &spring, const Vec3 &normal)
+{
+  return rotate_into_plane<double>(spring, normal);
 }
 
 }    // namespace eepa

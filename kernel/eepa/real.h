@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_REAL_H
+#define EEPA_REAL_H
+
+// `Real` in this kernel is double, one contact at a time, or Lanes, as many contacts at once as a
+// register of the processor holds. A law is written once for both: what depends on a comparison is
+// chosen with select(), so that lanes which decide differently keep together, and what few
+// contacts need is skipped with any(). A lane makes the operations that a double would make, in
+// the same order, and so the same bits.
+
+#include "lanes.h"
+#include "macros.h"
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace eepa {
+
+/// Three numbers along x, y, z.
+template <class Real> using Vector3 = Eigen::Matrix<Real, 3, 1>;
+
+/// Whether a condition holds for any contact.
+EEPA_FUNCTION bool any(bool condition)
+{
+  return condition;
+}
+
+/// `a` where the condition holds, else `b`.
+template <class T> EEPA_FUNCTION T select(bool condition, const T &a, const T &b)
+{
+  return condition ? a : b;
+}
+
+#ifdef EEPA_HAS_LANES
+EEPA_FUNCTION bool any(const Lanes::mask_type &condition)
+{
+  return std::experimental::any_of(condition);
+}
+
+EEPA_FUNCTION Lanes select(const Lanes::mask_type &condition, const Lanes &a, const Lanes &b)
+{
+  Lanes chosen = b;
+  where(condition, chosen) = a;
+  return chosen;
+}
+
+EEPA_FUNCTION Vector3<Lanes> select(const Lanes::mask_type &condition, const Vector3<Lanes> &a,
+                                    const Vector3<Lanes> &b)
+{
+  return Vector3<Lanes>(select(condition, a[0], b[0]), select(condition, a[1], b[1]),
+                        select(condition, a[2], b[2]));
+}
+#endif
+
+/// base^exponent, in each lane as the C library has it for a double.
+template <class Real> EEPA_FUNCTION Real raise(const Real &base, double exponent)
+{
+  if constexpr (std::is_same_v<Real, double>)
+    return std::pow(base, exponent);
+  else
+    return Real([&](auto lane) { return std::pow(base[lane], exponent); });
+}
+
+/// What a comparison of two Real gives: bool, or one for each lane.
+template <class Real> using MaskOf = decltype(std::declval<Real>() < std::declval<Real>());
+
+template <class Real> EEPA_FUNCTION Real smaller(const Real &a, const Real &b)
+{
+  return select(b < a, b, a);
+}
+template <class Real> EEPA_FUNCTION Real larger(const Real &a, const Real &b)
+{
+  return select(a < b, b, a);
+}
+
+}    // namespace eepa
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef LMP_EEPA_CONTACT_SLICE_H
+#define LMP_EEPA_CONTACT_SLICE_H
+
+#include "energy_ledger.h"
+
+#include <eepa/vector.h>
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// A pair that touches, as the search leaves it: small, for most candidates are overwritten by
+/// the next one.
+struct TouchingPair {
+  int i;
+  int place;    ///< of j among the neighbours of i
+};
+
+/// The same with what the law needs looked up.
+struct FoundContact {
+  int i, j;
+  int *status;        ///< see ContactStatus
+  double *history;    ///< see eepa::HistoryIndex
+};
+
+/// What a contact does to a particle that another slice writes.
+struct DeferredForce {
+  int atom;
+  eepa::Vec3 force, torque;    ///< on j
+};
+
+/// A part of the neighbour list and of the atoms, worked through by one thread; all of it where
+/// there are no threads.
+struct ContactSlice {
+  /// Contacts are found, fetched into the cache and evaluated in blocks that stay there.
+  static constexpr int block = 64;
+
+  int begin = 0, end = 0;                // places in the neighbour list
+  int first_atom = 0, atom_count = 0;    // run of atoms whose forces this slice alone writes
+  int deferrable = 0;                    // atoms below this get the forces that others defer
+  std::vector<TouchingPair> touching;
+  std::vector<FoundContact> contacts, sorted;    // of a block; sorted by coefficients
+  std::vector<DeferredForce> deferred;    // forces on atoms of other slices
+  EnergyLedger ledger;                    // of this force call
+  int deep_i = -1, deep_j = -1;           // a contact deeper than a radius, if there is one
+
+  bool writes(int atom) const
+  {
+    return static_cast<unsigned>(atom - first_atom) < static_cast<unsigned>(atom_count);
+  }
+  /// Whether another slice writes it; else it is a ghost whose owner computes this contact too.
+  bool defers(int atom) const { return atom < deferrable; }
+
+  void note_depth(int i, int j, double overlap, double smaller_radius)
+  {
+    // the centre of one in the other: nothing that happens from here on has a meaning
+    if (overlap <= smaller_radius) return;
+    deep_i = i;
+    deep_j = j;
+  }
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
