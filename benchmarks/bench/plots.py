@@ -51,18 +51,22 @@ def ratios(cases: Sequence[str], styles: Sequence[str],
     save(figure, path)
 
 
-def bars(groups: Sequence[str], series: Sequence[str], values: Mapping[str, Sequence[float]],
-         label: str, path: Path) -> None:
-    """Bars side by side, a group of them for each of `groups`."""
-    figure, axis = plt.subplots(figsize=(1.5 + 1.1 * len(groups), 4.2), constrained_layout=True)
+def bars(groups: Sequence[str], series: Sequence[str],
+         panels: Mapping[str, Mapping[str, Sequence[float]]], label: str, path: Path) -> None:
+    """Bars side by side, a group of them for each of `groups`, in a panel for each title."""
+    figure, axes = plt.subplots(len(panels), 1, squeeze=False, sharex=True, sharey=True,
+                                constrained_layout=True,
+                                figsize=(1.5 + 1.1 * len(groups), 0.6 + 3.2 * len(panels)))
     width = 0.85 / len(series)
-    for k, name in enumerate(series):
-        axis.bar(np.arange(len(groups)) + (k - 0.5 * (len(series) - 1)) * width, values[name],
-                 width, color=COLOURS[k % len(COLOURS)], label=name)
-    axis.set_xticks(range(len(groups)), groups, fontsize=9)
-    axis.set_ylabel(label)
-    axis.grid(axis="y", alpha=0.25, linewidth=0.5)
-    axis.legend(fontsize=8, frameon=False)
+    for axis, (title, values) in zip(axes[:, 0], panels.items()):
+        for k, name in enumerate(series):
+            axis.bar(np.arange(len(groups)) + (k - 0.5 * (len(series) - 1)) * width, values[name],
+                     width, color=COLOURS[k % len(COLOURS)], label=name)
+        axis.set_title(title, fontsize=10)
+        axis.set_ylabel(label)
+        axis.grid(axis="y", alpha=0.25, linewidth=0.5)
+    axes[-1, 0].set_xticks(range(len(groups)), groups, fontsize=9)
+    axes[0, 0].legend(fontsize=8, frameon=False)
     save(figure, path)
 
 

@@ -143,7 +143,7 @@ class Kernel(unittest.TestCase):
         self.assertEqual(kernel.contact_bytes("sds", context), (204, 108))
 
     def test_failed_benchmark_is_an_error(self):
-        entry = {"run_name": "linear/loading/none/cache", "name": "n", "run_type": "iteration",
+        entry = {"run_name": "linear/loading/none/one", "name": "n", "run_type": "iteration",
                  "repetition_index": 1, "contacts": 1000.0, "cpu_time": 12000.0}
         self.assertEqual(kernel.read_benchmarks([entry])[0]["ns"], 12.0)
         with self.assertRaisesRegex(ValueError, "wrong branch"):
