@@ -19,7 +19,7 @@ try:
     import numpy  # noqa: F401
     import matplotlib  # noqa: F401
 except ImportError as missing:
-    sys.exit(f"{sys.executable} has no {missing.name}; benchmarks/run.sh finds a Python that has it")
+    sys.exit(f"{sys.executable} has no {missing.name}; benchmarks/run.sh finds a Python that has")
 
 from collapse.cases import seeds_per_diameter  # noqa: E402
 from collapse.curves import BadCurve  # noqa: E402
@@ -183,7 +183,8 @@ def main(words: Optional[Sequence[str]] = None) -> int:
             Program(find_lmp(arguments.lmp, [build / "lmp"]), arguments.mpirun,
                     not arguments.no_bind),
             build, Path(machine.configured(build)["lammps_source_path"]), work, results,
-            machine.describe(build, HERE.parent, sys.argv[1:] if words is None else words),
+            machine.describe(build, HERE.parent, arguments.mpirun,
+                             sys.argv[1:] if words is None else words),
             arguments.quick, arguments.rounds)
         print("\n".join(f"{name}: {value}" for name, value in session.description.items()),
               flush=True)

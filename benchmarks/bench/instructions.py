@@ -79,12 +79,10 @@ def table(rows: Sequence[Dict]) -> str:
         some = {row["style"]: row for row in rows if row["case"] == case}
         lines.append([case] + [""] * (len(header) - 1))
         for name, row in some.items():
-            def over(reference: str) -> str:
-                if reference not in some:
-                    return ""
-                return (f"{row['instructions_per_step'] / some[reference]['instructions_per_step']:.3f}")
+            over = [f"{row['per_particle'] / some[other]['per_particle']:.3f}"
+                    if other in some else "" for other in (HOOKE, GRANULAR)]
             lines.append(["  " + name, f"{row['per_contact']:.1f}", f"{row['per_neighbour']:.1f}",
-                          f"{row['per_particle']:.1f}", over(HOOKE), over(GRANULAR),
+                          f"{row['per_particle']:.1f}", *over,
                           f"{row['contacts'] / row['atoms']:.3f}",
                           f"{row['neighbours'] / row['atoms']:.3f}"])
     return text_table(header, lines) + (

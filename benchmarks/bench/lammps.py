@@ -119,7 +119,8 @@ def run_lammps(program: Program, infile: Path, folder: Path, variables: Mapping[
     seconds = time.monotonic() - started
     if process.returncode != 0:
         said = "\n".join(f"    {line}" for line in tail(folder / SCREEN))
-        raise RunFailed(f"status {process.returncode} of\n    {' '.join(words)}\nwhich ends\n{said}")
+        raise RunFailed(f"status {process.returncode} of\n    {' '.join(words)}\n"
+                        f"which ends\n{said}")
     # not the system's account of the child, which begins with this program's own size
     peak = _PEAK.search((folder / SCREEN).read_text(encoding="utf-8", errors="replace"))
     return Finished(folder / LOG, seconds, int(peak.group(1)) if peak else 0)
