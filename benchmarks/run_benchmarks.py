@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -173,6 +174,8 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
 def main(words: Optional[Sequence[str]] = None) -> int:
     arguments = parse_arguments(words)
     started = time.monotonic()
+    # ended from outside, it ends what it has started
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     try:
         build = build_folder().resolve()
         results = (arguments.out or build / "benchmarks" / "results").resolve()

@@ -37,11 +37,15 @@ def measure(program: Program, case: Case, styles: Sequence[str], short: int, lon
                       work / f"callgrind_{k}_{steps}")
                   for k, name in enumerate(styles) for steps in lengths}
         rows = []
-        for name in styles:
-            (few, before), (many, after) = (counts[name, steps].result() for steps in lengths)
-            rows.append(_row(case, name, (many - few) / (long - short), before, after))
-            print(f"  {case.name}: {name}: {rows[-1]['per_contact']:.1f} instructions a contact",
-                  flush=True)
+        try:
+            for name in styles:
+                (few, before), (many, after) = (counts[name, steps].result() for steps in lengths)
+                rows.append(_row(case, name, (many - few) / (long - short), before, after))
+                print(f"  {case.name}: {name}: {rows[-1]['per_contact']:.1f} instructions a "
+                      "contact", flush=True)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)    # those that wait are not begun
+            raise
     return rows
 
 
