@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
+import signal
 import subprocess
 import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable, Dict, List, Optional, Sequence
+from typing import Callable, Dict, List, Mapping, Optional, Sequence
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "examples" / "scale_collapse")]
@@ -20,14 +20,14 @@ try:
     import numpy  # noqa: F401
     import matplotlib  # noqa: F401
 except ImportError as missing:
-    sys.exit(f"{sys.executable} has no {missing.name}; benchmarks/run.sh finds a Python that has it")
+    sys.exit(f"{sys.executable} has no {missing.name}; benchmarks/run.sh finds a Python that has")
 
 from collapse.cases import seeds_per_diameter  # noqa: E402
 from collapse.curves import BadCurve  # noqa: E402
 from collapse.runs import RunFailed, find_lmp  # noqa: E402
 
 from bench import (cases, cost, diameters, instructions, kernel, machine, memory,  # noqa: E402
-                   scaling)
+                   report, scaling)
 from bench.lammps import Program, has_pair_style, usable_cores  # noqa: E402
 from bench.lammps_log import BadLog  # noqa: E402
 from bench.output import write_csv  # noqa: E402
@@ -42,13 +42,14 @@ class Session:
     lammps_source: Path
     work: Path       #: start files and running simulations
     results: Path    #: what is left in the end
+    description: Mapping[str, object]    #: of machine, compiler, LAMMPS
     quick: bool
     rounds: int
 
     def write(self, name: str, rows: Sequence[Dict], text: str) -> None:
-        """The raw rows, and the table, which is also printed."""
+        """The rows of every run, and the table, which is also printed."""
         write_csv(self.results / f"{name}.csv", rows)
-        (self.results / f"{name}.txt").write_text(text, encoding="utf-8")
+        report.write_part(self.results, name, text, self.description)
         print("\n" + text, flush=True)
 
 
@@ -86,10 +87,10 @@ def run_cost(s: Session) -> None:
 def run_instructions(s: Session) -> None:
     """instructions a contact, by callgrind"""
     if not instructions.available():
-        print("valgrind is not there: no instructions are counted")
+        print("valgrind is not there (on Debian: apt-get install valgrind): nothing is counted")
         return
     packing = 1000 if s.quick else 4000
-    sizes = [cases.compression(s.program, s.work, packing).lasting(100, 0)]
+    sizes = [cases.compression(s.program, s.work, packing).lasting(50, 0)]
     if not s.quick:
         sizes.insert(0, cases.chute(s.lammps_source).lasting(20, 0))
     rows: List[Dict] = []
@@ -119,9 +120,9 @@ def run_diameters(s: Session) -> None:
     """wall time of one test at equal strain against the particles' diameter"""
     sizes = [2.0e-3, 2.5e-3, 3.0e-3] if s.quick else [1.0e-3, 1.25e-3, 1.5e-3, 2.0e-3, 2.5e-3,
                                                       3.0e-3]
-    rows = diameters.measure(s.program, sizes, seeds_per_diameter(sizes, [1] if s.quick else []),
-                             s.work / "diameters")
-    s.write("diameters", rows, diameters.table(rows))
+    rows, runs = diameters.measure(
+        s.program, sizes, seeds_per_diameter(sizes, [1] if s.quick else []), s.work / "diameters")
+    s.write("diameters", runs, diameters.table(rows))
     diameters.plot(rows, s.results / "diameters.png")
 
 
@@ -173,6 +174,8 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
 def main(words: Optional[Sequence[str]] = None) -> int:
     arguments = parse_arguments(words)
     started = time.monotonic()
+    # ended from outside, it ends what it has started
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     try:
         build = build_folder().resolve()
         results = (arguments.out or build / "benchmarks" / "results").resolve()
@@ -183,17 +186,18 @@ def main(words: Optional[Sequence[str]] = None) -> int:
             Program(find_lmp(arguments.lmp, [build / "lmp"]), arguments.mpirun,
                     not arguments.no_bind),
             build, Path(machine.configured(build)["lammps_source_path"]), work, results,
+            machine.describe(build, HERE.parent, arguments.mpirun,
+                             sys.argv[1:] if words is None else words),
             arguments.quick, arguments.rounds)
-        description = machine.describe(build, HERE.parent, sys.argv[1:] if words is None else words)
-        (results / "machine.json").write_text(json.dumps(description, indent=2) + "\n",
-                                              encoding="utf-8")
-        print("\n".join(f"{name}: {value}" for name, value in description.items()), flush=True)
+        print("\n".join(f"{name}: {value}" for name, value in session.description.items()),
+              flush=True)
         for name in PARTS:
             if name in arguments.only:
                 print(f"\n== {name}: {PARTS[name].__doc__}", flush=True)
                 PARTS[name](session)
-        print(f"\nTables, figures and every single run: {results} "
-              f"({(time.monotonic() - started) / 60.0:.1f} minutes)")
+        report.write_report(results, {name: part.__doc__ or "" for name, part in PARTS.items()})
+        print(f"\nTables, figures and every single run: {results}, all on one page in "
+              f"report.md ({(time.monotonic() - started) / 60.0:.1f} minutes)")
     except KeyboardInterrupt:
         print("\nStopped.")
         return 130

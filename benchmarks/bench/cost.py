@@ -51,7 +51,8 @@ def one_run(program: Program, case: Case, style: str, work: Path,
 def table(rows: Sequence[Dict]) -> str:
     """One block a case."""
     header = ("case and style", "pair, s", "loop, s", "pair / hooke", "loop / hooke",
-              "pair / damped", "pair / granular", "contacts", "neighbours", "load/unload/adh/slide, %", "CPU, %")
+              "pair / damped", "pair / granular", "contacts", "neighbours",
+              "load/unload/adh/slide, %", "CPU, %")
     lines = []
     for case in dict.fromkeys(row["case"] for row in rows):
         some = [row for row in rows if row["case"] == case]
@@ -60,9 +61,9 @@ def table(rows: Sequence[Dict]) -> str:
             lines.append(_line(some, style))
     return text_table(header, lines) + (
         "\nMedians over the rounds; of a ratio the median of the rounds' ratios with its "
-        "quartiles.\nContacts and neighbours are a particle's, contacts between start and end. Damped: "
-        "gran/hooke/history with a\ndashpot that leaves as many contacts as hysteresis does. CPU is "
-        "the least of the runs: below 99 the\nmachine had other things to do.\n")
+        "quartiles. Contacts and\nneighbours are a particle's, contacts between start and end. "
+        "Damped: gran/hooke/history with a dashpot that\nleaves as many contacts as hysteresis "
+        "does. CPU is the least of the runs: below 99 the machine had other\nthings to do.\n")
 
 
 def _line(rows: Sequence[Dict], style: str) -> List[str]:

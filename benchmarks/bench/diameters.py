@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from pathlib import Path
-from typing import Dict, List, Sequence
+from typing import Dict, List, Sequence, Tuple
 
 from collapse import report
 from collapse.cases import Case, folder_of, make_cases
@@ -23,22 +23,27 @@ IN_FILE = (Path(__file__).resolve().parents[2] / "examples" / "scale_collapse" /
 
 
 def measure(program: Program, diameters: Sequence[float], seeds: Sequence[int],
-            out: Path) -> List[Dict]:
-    """A row for each diameter: mean over its seeds, at the strain that all of them reach."""
+            out: Path) -> Tuple[List[Dict], List[Dict]]:
+    """A row for each diameter, mean over its seeds at the strain that all of them reach; and one
+    for each run."""
     cases = make_cases(diameters, seeds, "linear", ["scaled"])
     launcher = Launcher(program.lmp, IN_FILE, program.mpirun, 1)
     Runner(launcher, out, 1, Progress(cases, 1)).run(cases, redo=True)
-    groups = []
+    groups, runs = [], []
     for diameter, count in zip(diameters, seeds):
         group = report.Group(diameter, "scaled", [], [])
         for seed in range(1, count + 1):
             folder = folder_of(out, Case(diameter, True, "linear", seed))
             group.curves.append(load_curve(folder / CURVE, PRELOAD))
             group.timings.append(report.Timing.from_marker(read_marker(folder)))
+            runs.append({"diameter_mm": 1e3 * diameter, "seed": seed,
+                         **asdict(group.timings[-1]),
+                         "loading_strain": group.curves[-1].loading_run_strain})
         groups.append(group)
     wanted = ("diameter_mm", "particles", "seeds", "loading_seconds", "total_seconds",
               "particle_steps_per_second", "deviation_percent")
-    return [{name: asdict(row)[name] for name in wanted} for row in report.make_rows(groups)]
+    means = [{name: asdict(row)[name] for name in wanted} for row in report.make_rows(groups)]
+    return means, runs
 
 
 def table(rows: Sequence[Dict]) -> str:

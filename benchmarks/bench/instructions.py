@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 import shutil
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
-from typing import Dict, List, Sequence
+from typing import Dict, List, Sequence, Tuple
 
 from .cases import Case
-from .lammps import Program, run_lammps
-from .lammps_log import read_log
+from .lammps import Program, run_lammps, usable_cores
+from .lammps_log import TimedRun, read_log
 from .output import text_table
 from .styles import GRANULAR, HOOKE, Style
 
@@ -26,26 +28,36 @@ def measure(program: Program, case: Case, styles: Sequence[str], short: int, lon
             work: Path) -> List[Dict]:
     """Two runs of each style that differ in their steps alone. What is counted beside the steps
     (the set-ups' force calls, the last step, which also tallies the energy) is the same in both,
-    and the difference is free of it."""
-    rows = []
-    for name in styles:
-        style = case.styles[name]
-        (few, before), (many, after) = (
-            _count(program, case.lasting(case.warm, steps), style, work) for steps in (short, long))
-        contacts = 0.5 * (before.figures["contacts_after"] + after.figures["contacts_after"])
-        per_step = (many - few) / (long - short)
-        rows.append({"case": case.name, "style": name, "atoms": after.atoms,
-                     "instructions_per_step": per_step, "contacts": contacts,
-                     "neighbours": after.neighbors, "per_contact": per_step / contacts,
-                     "per_neighbour": per_step / after.neighbors,
-                     "per_particle": per_step / after.atoms})
-        print(f"  {case.name}: {name}: {rows[-1]['per_contact']:.1f} instructions a contact",
-              flush=True)
+    and the difference is free of it. As many runs at once as there are cores: nothing is timed."""
+    lengths = (short, long)
+    free = replace(program, bind=False)
+    with ThreadPoolExecutor(len(usable_cores())) as pool:
+        counts = {(name, steps): pool.submit(
+                      _count, free, case.lasting(case.warm, steps), case.styles[name],
+                      work / f"callgrind_{k}_{steps}")
+                  for k, name in enumerate(styles) for steps in lengths}
+        rows = []
+        try:
+            for name in styles:
+                (few, before), (many, after) = (counts[name, steps].result() for steps in lengths)
+                rows.append(_row(case, name, (many - few) / (long - short), before, after))
+                print(f"  {case.name}: {name}: {rows[-1]['per_contact']:.1f} instructions a "
+                      "contact", flush=True)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)    # those that wait are not begun
+            raise
     return rows
 
 
-def _count(program: Program, case: Case, style: Style, work: Path):
-    folder = work / "callgrind"
+def _row(case: Case, name: str, per_step: float, before: TimedRun, after: TimedRun) -> Dict:
+    contacts = 0.5 * (before.figures["contacts_after"] + after.figures["contacts_after"])
+    return {"case": case.name, "style": name, "atoms": after.atoms,
+            "instructions_per_step": per_step, "contacts": contacts,
+            "neighbours": after.neighbors, "per_contact": per_step / contacts,
+            "per_neighbour": per_step / after.neighbors, "per_particle": per_step / after.atoms}
+
+
+def _count(program: Program, case: Case, style: Style, folder: Path) -> Tuple[int, TimedRun]:
     variables = case.variables(style, folder)
     counts = folder / "callgrind.out"
     counts.unlink(missing_ok=True)
@@ -71,12 +83,10 @@ def table(rows: Sequence[Dict]) -> str:
         some = {row["style"]: row for row in rows if row["case"] == case}
         lines.append([case] + [""] * (len(header) - 1))
         for name, row in some.items():
-            def over(reference: str) -> str:
-                if reference not in some:
-                    return ""
-                return (f"{row['instructions_per_step'] / some[reference]['instructions_per_step']:.3f}")
+            over = [f"{row['per_particle'] / some[other]['per_particle']:.3f}"
+                    if other in some else "" for other in (HOOKE, GRANULAR)]
             lines.append(["  " + name, f"{row['per_contact']:.1f}", f"{row['per_neighbour']:.1f}",
-                          f"{row['per_particle']:.1f}", over(HOOKE), over(GRANULAR),
+                          f"{row['per_particle']:.1f}", *over,
                           f"{row['contacts'] / row['atoms']:.3f}",
                           f"{row['neighbours'] / row['atoms']:.3f}"])
     return text_table(header, lines) + (

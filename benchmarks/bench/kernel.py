@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Dict, List, Mapping, Sequence, Tuple
 
 from . import plots
-from .lammps import Program, usable_cores
+from .lammps import Program, bind
 from .output import text_table
 from .statistics import median
 
@@ -67,11 +67,14 @@ def measure(program: Program, build: Path, repetitions: int,
     words = [str(build / "bench_kernel"), f"--benchmark_repetitions={repetitions}",
              "--benchmark_enable_random_interleaving=true", f"--benchmark_min_time={min_time}",
              "--benchmark_format=json"]
-    if program.bind:
-        words[:0] = ["taskset", "-c", str(usable_cores()[-1])]
-    done = subprocess.run(words, check=True, text=True, stdout=subprocess.PIPE,
-                          stderr=subprocess.DEVNULL)
-    said = json.loads(done.stdout)
+    with subprocess.Popen(words, text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL) as process:
+        if program.bind:
+            bind(process)
+        text = process.communicate()[0]
+    if process.returncode != 0:
+        raise subprocess.CalledProcessError(process.returncode, words)
+    said = json.loads(text)
     return read_benchmarks(said["benchmarks"]), said["context"]
 
 
@@ -109,38 +112,52 @@ def _models() -> List[Tuple[str, str]]:
     return [(law, rolling) for law in LAWS for rolling in ROLLING]
 
 
+def _ways(rows: Sequence[Dict]) -> List[str]:
+    """One by one; side by side where the compiler has lanes."""
+    places = {row["place"] for row in rows}
+    return [way for way in ("one", "lanes") if way in places]
+
+
 def table(rows: Sequence[Dict], operations: Sequence[Dict], context: Mapping[str, str]) -> str:
     ns = _medians(rows)
+    ways = _ways(rows)
     lines = []
-    for law, rolling in _models():
-        lines.append([f"{law}, {rolling}"]
-                     + [f"{ns[law, rolling, branch, 'cache']:.1f}" for branch in BRANCHES]
-                     + [f"{ns[law, rolling, 'mixed', 'memory']:.1f}"])
+    for way in ways:
+        for law, rolling in _models():
+            lines.append([f"{law}, {rolling}, {way}"]
+                         + [f"{ns[law, rolling, branch, way]:.1f}" for branch in BRANCHES]
+                         + [f"{ns[law, rolling, 'mixed', f'{way}, memory']:.1f}"])
     text = text_table(("law, rolling: ns a contact", *BRANCHES, "from memory"), lines)
 
     lines = []
     for law, rolling in _models():
         own = next(row for row in operations
                    if (row["law"], row["rolling"], row["branch"]) == (law, rolling, "mixed"))
-        driver = driver_operations(rolling)
         flops = sum(own[name] for name in OPERATIONS if name != "comparisons")
-        around = sum(driver.values())
+        around = sum(driver_operations(rolling).values())
         read, written = contact_bytes(rolling, context)
         lines.append([f"{law}, {rolling}"] + [f"{own[name]:.1f}" for name in OPERATIONS]
-                     + [f"{flops:.0f}", f"{flops / ns[law, rolling, 'mixed', 'cache']:.1f}",
-                        f"{around:.0f}", str(read), str(written)])
-    return text + "\n" + text_table(
+                     + [f"{flops:.0f}"]
+                     + [f"{flops / ns[law, rolling, 'mixed', way]:.1f}" for way in ways]
+                     + [f"{around:.0f}", str(read), str(written)])
+    text += "\n" + text_table(
         ("mixed contacts need", "add", "multiply", "divide", "root", "power", "compare", "flop",
-         "flop/ns", "driver's flop", "bytes read", "written"), lines) + (
-        "\nMedian of the repetitions; mixed: 60% loading, 25% unloading, 5% adhesive, 10% sliding, "
-        "in random\norder. Operations are counted while the kernel runs; flop is all but "
-        "comparisons. The driver's\nare gathering and scattering, by hand. Bytes are those of "
-        "LAMMPS's arrays for the partner and\nthe pair.\n")
+         *(f"flop/ns {way}" for way in ways), "driver's flop", "bytes read", "written"), lines)
+    if "lanes" in ways:
+        text += f"\nOne by one, and {context['lanes']} side by side in lanes. "
+    else:
+        text += "\nOne by one; this compiler has no lanes. "
+    return text + (
+        "Median of the repetitions. Mixed: 60% loading, 25%\nunloading, 5% adhesive, 10% sliding, "
+        "in random order. Operations are counted while the kernel runs one\nby one; flop is all "
+        "but comparisons. The driver's are gathering and scattering, by hand. Bytes are those\nof "
+        "LAMMPS's arrays for the partner and the pair.\n")
 
 
 def plot(rows: Sequence[Dict], path: Path) -> None:
     ns = _medians(rows)
-    models = _models()
-    plots.bars([f"{law}\n{rolling}" for law, rolling in models], BRANCHES,
-               {branch: [ns[law, rolling, branch, "cache"] for law, rolling in models]
-                for branch in BRANCHES}, "ns a contact", path)
+    titles = {"one": "one by one", "lanes": "side by side, in lanes"}
+    plots.bars([f"{law}\n{rolling}" for law, rolling in _models()], BRANCHES,
+               {titles[way]: {branch: [ns[law, rolling, branch, way] for law, rolling in _models()]
+                              for branch in BRANCHES} for way in _ways(rows)},
+               "ns a contact", path)

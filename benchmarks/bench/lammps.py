@@ -9,7 +9,7 @@ import subprocess
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Mapping, Optional, Sequence
+from typing import Dict, List, Mapping, Sequence
 
 from collapse.logs import tail
 from collapse.runs import RunFailed
@@ -88,6 +88,12 @@ def environment(program: Program, parallel: Parallel = Parallel()) -> Dict[str, 
     return {**os.environ, **settings}
 
 
+def bind(process: subprocess.Popen, cores: int = 1) -> None:
+    """Keeps a process to as many cores: the last ones, since the first serves the machine."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(process.pid, usable_cores()[-cores:])
+
+
 def run_lammps(program: Program, infile: Path, folder: Path, variables: Mapping[str, str],
                parallel: Parallel = Parallel(), prefix: Sequence[str] = ()) -> Finished:
     """Runs an in-file in a folder that must exist.
@@ -96,19 +102,14 @@ def run_lammps(program: Program, infile: Path, folder: Path, variables: Mapping[
     :raise RunFailed: with the end of what LAMMPS said
     """
     words = command(program, infile, folder, variables, parallel, prefix)
-    cores = usable_cores()
-    # without mpirun nobody else binds; the last cores, since the first one serves the machine
-    bound: Optional[List[int]] = None
-    if program.bind and parallel.ranks == 1 and hasattr(os, "sched_setaffinity"):
-        bound = cores[-parallel.cores:]
     started = time.monotonic()
     with (folder / SCREEN).open("wb") as screen:
         # a session of its own, so that all of it can be ended at once
         process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=screen,
                                    stderr=subprocess.STDOUT, cwd=folder,
                                    env=environment(program, parallel), start_new_session=True)
-        if bound is not None:
-            os.sched_setaffinity(process.pid, bound)
+        if program.bind and parallel.ranks == 1:    # mpirun binds by itself
+            bind(process, parallel.cores)
         try:
             process.wait()
         except BaseException:
@@ -118,7 +119,8 @@ def run_lammps(program: Program, infile: Path, folder: Path, variables: Mapping[
     seconds = time.monotonic() - started
     if process.returncode != 0:
         said = "\n".join(f"    {line}" for line in tail(folder / SCREEN))
-        raise RunFailed(f"status {process.returncode} of\n    {' '.join(words)}\nwhich ends\n{said}")
+        raise RunFailed(f"status {process.returncode} of\n    {' '.join(words)}\n"
+                        f"which ends\n{said}")
     # not the system's account of the child, which begins with this program's own size
     peak = _PEAK.search((folder / SCREEN).read_text(encoding="utf-8", errors="replace"))
     return Finished(folder / LOG, seconds, int(peak.group(1)) if peak else 0)

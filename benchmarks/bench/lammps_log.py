@@ -12,7 +12,8 @@ _CPU = re.compile(r"^([\d.]+)% CPU use with")
 _SECTION = re.compile(r"^(\w+)\s*\|\s*([\d.e+-]*)\s*\|\s*([\d.e+-]+)\s*\|\s*([\d.e+-]*)\s*\|")
 _NEIGHBORS = re.compile(r"^Total # of neighbors = (\d+)")
 _BUILDS = re.compile(r"^Neighbor list builds = (\d+)")
-_MEMORY = re.compile(r"^Per MPI rank memory allocation \(min/avg/max\) = \S+ \| \S+ \| (\S+) Mbytes")
+_MEMORY = re.compile(r"^Per MPI rank memory allocation \(min/avg/max\) = "
+                     r"\S+ \| \S+ \| (\S+) Mbytes")
 _FIGURE = re.compile(r"^Figure (\w+) (\S+)\s*$")
 
 

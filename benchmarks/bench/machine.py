@@ -12,8 +12,9 @@ from typing import Dict, Sequence
 from .lammps import usable_cores
 
 
-def describe(build: Path, source: Path, words: Sequence[str]) -> Dict[str, object]:
-    """Processor, memory, compiler, flags, LAMMPS, commit, date.
+def describe(build: Path, source: Path, mpirun: str,
+             words: Sequence[str]) -> Dict[str, object]:
+    """Processor, memory, compiler, flags, MPI, LAMMPS, commit, date.
 
     :param build: build folder; its benchmarks.json was written when it was configured
     :param words: arguments of this run
@@ -27,6 +28,7 @@ def describe(build: Path, source: Path, words: Sequence[str]) -> Dict[str, objec
         "caches": _caches(),
         "system": f"{platform.system()} {platform.release()}",
         **{k: v for k, v in configured(build).items() if not k.endswith("_path")},
+        "mpi": _first_line(mpirun, "--version"),
         "commit": _commit(source),
     }
 
@@ -64,6 +66,15 @@ def _word(path: Path) -> str:
         return path.read_text(encoding="utf-8").strip()
     except OSError:
         return "?"
+
+
+def _first_line(*words: str) -> str:
+    """Of what a program says; nothing where there is no such program."""
+    try:
+        said = subprocess.run(words, text=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    except OSError:
+        return ""
+    return said.stdout.partition("\n")[0].strip()
 
 
 def _commit(source: Path) -> str:

@@ -10,6 +10,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first: there may be no display)
 import numpy as np  # noqa: E402
+from matplotlib.ticker import (FormatStrFormatter, LogLocator, NullFormatter,  # noqa: E402
+                               NullLocator)
 
 from collapse.report import COLOURS  # noqa: E402
 
@@ -44,22 +46,27 @@ def ratios(cases: Sequence[str], styles: Sequence[str],
         axis.set_xticks(range(len(cases)), cases)
         axis.set_title(f"{what} time / that of gran/hooke/history", fontsize=10)
         axis.grid(axis="y", alpha=0.25, linewidth=0.5)
-    axes[0].legend(fontsize=8, frameon=False)
+        axis.set_ylim(top=1.3 * axis.get_ylim()[1])    # room for the legend
+        axis.legend(fontsize=8, frameon=False, loc="upper left", ncols=2)
     save(figure, path)
 
 
-def bars(groups: Sequence[str], series: Sequence[str], values: Mapping[str, Sequence[float]],
-         label: str, path: Path) -> None:
-    """Bars side by side, a group of them for each of `groups`."""
-    figure, axis = plt.subplots(figsize=(1.5 + 1.1 * len(groups), 4.2), constrained_layout=True)
+def bars(groups: Sequence[str], series: Sequence[str],
+         panels: Mapping[str, Mapping[str, Sequence[float]]], label: str, path: Path) -> None:
+    """Bars side by side, a group of them for each of `groups`, in a panel for each title."""
+    figure, axes = plt.subplots(len(panels), 1, squeeze=False, sharex=True, sharey=True,
+                                constrained_layout=True,
+                                figsize=(1.5 + 1.1 * len(groups), 0.6 + 3.2 * len(panels)))
     width = 0.85 / len(series)
-    for k, name in enumerate(series):
-        axis.bar(np.arange(len(groups)) + (k - 0.5 * (len(series) - 1)) * width, values[name],
-                 width, color=COLOURS[k % len(COLOURS)], label=name)
-    axis.set_xticks(range(len(groups)), groups, fontsize=9)
-    axis.set_ylabel(label)
-    axis.grid(axis="y", alpha=0.25, linewidth=0.5)
-    axis.legend(fontsize=8, frameon=False)
+    for axis, (title, values) in zip(axes[:, 0], panels.items()):
+        for k, name in enumerate(series):
+            axis.bar(np.arange(len(groups)) + (k - 0.5 * (len(series) - 1)) * width, values[name],
+                     width, color=COLOURS[k % len(COLOURS)], label=name)
+        axis.set_title(title, fontsize=10)
+        axis.set_ylabel(label)
+        axis.grid(axis="y", alpha=0.25, linewidth=0.5)
+    axes[-1, 0].set_xticks(range(len(groups)), groups, fontsize=9)
+    axes[0, 0].legend(fontsize=8, frameon=False)
     save(figure, path)
 
 
@@ -103,7 +110,10 @@ def powers(x: Sequence[float], series: Mapping[str, Sequence[float]], fits: Mapp
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.set_xticks(x, [f"{d:g}" for d in x])
-    axis.minorticks_off()
+    axis.xaxis.set_minor_locator(NullLocator())
+    axis.yaxis.set_minor_formatter(NullFormatter())
+    axis.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.yaxis.set_major_formatter(FormatStrFormatter("%g"))
     axis.set_xlabel("diameter (mm)")
     axis.set_ylabel("wall time (s)")
     axis.grid(alpha=0.25, linewidth=0.5)

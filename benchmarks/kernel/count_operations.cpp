@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Floating-point operations of the contact law, counted while it runs: the kernel's own headers
-// are compiled with a number that keeps count in place of double. What they do, and nothing that
-// was written down beside them, is what is counted. Writes CSV.
+// Floating-point operations of the contact law, counted while it runs: the kernel is written for
+// any kind of number, and here it gets one that keeps count. Writes CSV.
 
 #include "counted.h"
-
-#include <Eigen/Geometry>
-
-#include <cstdint>
-#include <cstdio>
-#include <string>
-#include <vector>
-
-#define double eepa_bench::Counted
-#define Vector3d Matrix<eepa_bench::Counted, 3, 1>
 #include "sample_contacts.h"
-#undef double
-#undef Vector3d
+
+#include <cstdio>
 
 int main()
 {
@@ -28,15 +17,16 @@ int main()
     for (Kind kind : all_kinds) {
       eepa::with_law(choice.settings, choice.parameters.rolling, [&](auto law) {
         using ContactLaw = decltype(law);
-        auto samples = make_samples<ContactLaw>(choice, kind, contacts);
+        auto packs = pack<Counted>(make_samples<ContactLaw>(choice, kind, contacts));
         const eepa::Coefficients c = eepa::resolve(choice.parameters, choice.settings);
         Counted::count = Operations();
-        for (Sample &sample : samples) {
-          const eepa::Response response =
-              ContactLaw::evaluate(c, false, sample.contact, time_step, sample.history);
-          [[maybe_unused]] const Vec3 force = ContactLaw::force_on_i(response, sample.contact);
-          [[maybe_unused]] const Vec3 moment =
-              ContactLaw::tangential_moment(response, sample.contact);
+        for (auto &[contact, history] : packs) {
+          const auto response = ContactLaw::evaluate(c, false, contact, time_step, history);
+          // Eigen works out what is asked for
+          [[maybe_unused]] const eepa::Vector3<Counted> force =
+              ContactLaw::force_on_i(response, contact);
+          [[maybe_unused]] const eepa::Vector3<Counted> moment =
+              ContactLaw::tangential_moment(response, contact);
         }
         const Operations &n = Counted::count;
         constexpr double per = 1.0 / contacts;

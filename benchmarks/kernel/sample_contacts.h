@@ -3,8 +3,7 @@
 #define EEPA_SAMPLE_CONTACTS_H
 
 // Contacts as a packing of a cohesive powder has them, of one branch each, for the programs that
-// time and count what the law does with them. count_operations.cpp gives `double` another
-// meaning, hence Plain where a true one is needed.
+// time and count what the law does with them.
 
 #include <eepa/dispatch.h>
 
@@ -15,7 +14,6 @@
 
 namespace eepa_bench {
 
-using Plain = decltype(0.0);
 using eepa::Vec3;
 
 /// What is asked of the contacts of one run.
@@ -45,10 +43,7 @@ struct Choice {
   eepa::LawSettings settings;
   eepa::Parameters parameters;
   std::string law, rolling;
-  std::string name(Kind kind) const
-  {
-    return law + "/" + name_of(kind) + "/" + rolling;
-  }
+  std::string name(Kind kind) const { return law + "/" + name_of(kind) + "/" + rolling; }
 };
 
 /// Every law with every rolling model: a powder of 1 mm, as in examples/scale_collapse.
@@ -67,7 +62,7 @@ inline std::vector<Choice> all_choices()
       s.reference_diameter = 1.0e-3;
       auto &p = choice.parameters;
       // of force/length^1.5 so that an overlap of 1% has the same force
-      const Plain unit = law == 2 ? 1.0 / 3.1622776601683794e-3 : 1.0;
+      const double unit = law == 2 ? 1.0 / 3.1622776601683794e-3 : 1.0;
       p.k1 = 5.0e3 * unit;
       p.k2 = 1.0e4 * unit;
       p.k_adh = 5.0e3 * unit;
@@ -77,8 +72,8 @@ inline std::vector<Choice> all_choices()
       p.kt = 2.0 / 7.0 * 5.0e3;
       p.restitution = 0.3;
       p.rolling = rolling == 0 ? eepa::RollingModel::none
-                               : rolling == 1 ? eepa::RollingModel::constant
-                                              : eepa::RollingModel::sds;
+          : rolling == 1       ? eepa::RollingModel::constant
+                               : eepa::RollingModel::sds;
       p.mu_r = rolling == 1 ? 1.0e-3 : 1.0e-2;
       if (rolling == 2) {
         p.kr = 1.0e3;
@@ -93,18 +88,15 @@ inline std::vector<Choice> all_choices()
 /// Reproducible numbers in [0, 1) (Knuth's 64-bit linear congruence).
 class Numbers {
  public:
-  Plain operator()()
+  double operator()()
   {
     state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<Plain>(state >> 11) * 0x1p-53;
+    return static_cast<double>(state >> 11) * 0x1p-53;
   }
-  Plain between(Plain low, Plain high)
-  {
-    return low + (high - low) * (*this)();
-  }
+  double between(double low, double high) { return low + (high - low) * (*this)(); }
   Vec3 in_cube()
   {
-    const Plain x = between(-1.0, 1.0), y = between(-1.0, 1.0), z = between(-1.0, 1.0);
+    const double x = between(-1.0, 1.0), y = between(-1.0, 1.0), z = between(-1.0, 1.0);
     return Vec3(x, y, z);
   }
 
@@ -118,7 +110,7 @@ struct Sample {
   eepa::History history;
 };
 
-constexpr Plain time_step = 1.8e-6;
+constexpr double time_step = 1.8e-6;
 
 /// Contacts of a kind that stay so however often they are evaluated: only those that slide (and
 /// with sds roll at their bound) have a velocity that winds their springs up.
@@ -131,17 +123,18 @@ std::vector<Sample> make_samples(const Choice &choice, Kind kind, std::size_t co
   for (Sample &sample : samples) {
     Kind own = kind;
     if (kind == Kind::mixed) {    // about what the dense compression has
-      const Plain which = random();
-      own = which < 0.6 ? Kind::loading
-                        : which < 0.85 ? Kind::unloading
-                                       : which < 0.9 ? Kind::adhesive : Kind::sliding;
+      const double which = random();
+      own = which < 0.6  ? Kind::loading
+          : which < 0.85 ? Kind::unloading
+          : which < 0.9  ? Kind::adhesive
+                         : Kind::sliding;
     }
     eepa::Contact &contact = sample.contact;
-    const Plain radius = random.between(0.4e-3, 0.6e-3), other = random.between(0.4e-3, 0.6e-3);
+    const double radius = random.between(0.4e-3, 0.6e-3), other = random.between(0.4e-3, 0.6e-3);
     contact.size = radius + other;
     contact.overlap = contact.size * random.between(0.002, 0.02);
-    contact.effective_mass = 2000.0 * 4.18879 * eepa::effective_mass(radius * radius * radius,
-                                                                      other * other * other);
+    contact.effective_mass =
+        2000.0 * 4.18879 * eepa::effective_mass(radius * radius * radius, other * other * other);
     contact.effective_radius = eepa::effective_radius(radius, other);
     Vec3 normal = random.in_cube() + Vec3(0.1, 0.2, 0.3);
     contact.normal = normal / std::sqrt(normal.squaredNorm());
@@ -165,6 +158,56 @@ std::vector<Sample> make_samples(const Choice &choice, Kind kind, std::size_t co
     history.rolling_spring = 1e-9 * contact.normal.cross(random.in_cube());
   }
   return samples;
+}
+
+/// How many contacts a number of the kernel stands for.
+template <class Real> constexpr std::size_t width = 1;
+#ifdef EEPA_HAS_LANES
+template <> constexpr std::size_t width<eepa::Lanes> = eepa::Lanes::size();
+#endif
+
+template <class Real> void set_lane(Real &number, std::size_t lane, double value)
+{
+  if constexpr (width<Real> == 1)
+    number = value;
+  else
+    number[lane] = value;
+}
+template <class Real>
+void set_lane(eepa::Vector3<Real> &vector, std::size_t lane, const Vec3 &value)
+{
+  for (int k = 0; k < 3; k++) set_lane(vector[k], lane, value[k]);
+}
+
+/// As many contacts side by side as a number stands for.
+template <class Real> struct Pack {
+  eepa::ContactOf<Real> contact;
+  eepa::HistoryOf<Real> history;
+};
+
+/// The contacts in another kind of number; those that fill no pack are left out.
+template <class Real> std::vector<Pack<Real>> pack(const std::vector<Sample> &samples)
+{
+  std::vector<Pack<Real>> packs(samples.size() / width<Real>);
+  for (std::size_t k = 0; k < packs.size() * width<Real>; k++) {
+    const std::size_t lane = k % width<Real>;
+    const eepa::Contact &from = samples[k].contact;
+    eepa::ContactOf<Real> &to = packs[k / width<Real>].contact;
+    set_lane(to.normal, lane, from.normal);
+    set_lane(to.overlap, lane, from.overlap);
+    set_lane(to.size, lane, from.size);
+    set_lane(to.effective_mass, lane, from.effective_mass);
+    set_lane(to.effective_radius, lane, from.effective_radius);
+    set_lane(to.velocity, lane, from.velocity);
+    set_lane(to.spin, lane, from.spin);
+    set_lane(to.angular_velocity, lane, from.angular_velocity);
+    const eepa::History &old = samples[k].history;
+    eepa::HistoryOf<Real> &history = packs[k / width<Real>].history;
+    set_lane(history.max_overlap, lane, old.max_overlap);
+    set_lane(history.tangential_spring, lane, old.tangential_spring);
+    set_lane(history.rolling_spring, lane, old.rolling_spring);
+  }
+  return packs;
 }
 
 }    // namespace eepa_bench
