@@ -5,6 +5,7 @@
 #include "error.h"
 #include "fix.h"
 #include "modify.h"
+#include "neighbor.h"
 
 #include <limits>
 
@@ -42,18 +43,26 @@ const double *ContactMasses::masses()
 {
   if (!fix_rigid_ && !freeze_groupbit_) return atom->rmass;
 
+  // which atoms are held or in a body changes with the neighbour list; the masses of others may
+  // at any step
   const int nall = atom->nlocal + atom->nghost;
   const bool bodies = fix_rigid_ && !body_mass_.empty();    // not before the first force call
-  mass_.resize(nall);
-  for (int i = 0; i < nall; i++) {
-    mass_[i] = atom->rmass[i];
-    if (bodies && body_mass_[i] > 0.0) mass_[i] = body_mass_[i];
-    if (atom->mask[i] & freeze_groupbit_) mass_[i] = std::numeric_limits<double>::infinity();
+  if (neighbor->ago == 0 || static_cast<int>(mass_.size()) != nall) {
+    special_.clear();
+    for (int i = 0; i < nall; i++) {
+      if (atom->mask[i] & freeze_groupbit_)
+        special_.push_back({i, std::numeric_limits<double>::infinity()});
+      else if (bodies && body_mass_[i] > 0.0)
+        special_.push_back({i, body_mass_[i]});
+    }
   }
+  mass_.assign(atom->rmass, atom->rmass + nall);
+  for (const SpecialMass &special : special_) mass_[special.atom] = special.mass;
   return mass_.data();
 }
 
 double ContactMasses::memory_usage() const
 {
-  return static_cast<double>((mass_.capacity() + body_mass_.capacity()) * sizeof(double));
+  return static_cast<double>((mass_.capacity() + body_mass_.capacity()) * sizeof(double) +
+                             special_.capacity() * sizeof(SpecialMass));
 }

@@ -36,6 +36,11 @@ class ContactMasses : protected Pointers {
   Fix *fix_rigid_ = nullptr;
   int freeze_groupbit_ = 0;
   std::vector<double> body_mass_;    // 0 for a particle in no body
+  struct SpecialMass {
+    int atom;
+    double mass;
+  };
+  std::vector<SpecialMass> special_;    // that are not the atom's own
   std::vector<double> mass_;
 };
 

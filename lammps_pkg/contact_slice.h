@@ -45,6 +45,12 @@ struct ContactSlice {
   EnergyLedger ledger;                           // of this force call
   int deep_i = -1, deep_j = -1;                  // a contact deeper than a radius, if there is one
 
+  double memory_usage() const
+  {
+    return static_cast<double>(touching.capacity() * sizeof(TouchingPair) +
+                               (contacts.capacity() + sorted.capacity()) * sizeof(FoundContact) +
+                               deferred.capacity() * sizeof(DeferredForce));
+  }
   bool writes(int atom) const
   {
     return static_cast<unsigned>(atom - first_atom) < static_cast<unsigned>(atom_count);

@@ -6,6 +6,9 @@
 #include "compute_gran_eepa_energy.h"
 #include "fix_wall_gran_eepa.h"
 #include "pair_gran_eepa.h"
+#ifdef _OPENMP
+#include "pair_gran_eepa_omp.h"
+#endif
 
 #include "force.h"
 #include "lammps.h"
@@ -31,6 +34,10 @@ const std::vector<EepaStyle> &LAMMPS_NS::eepa_styles()
   static const std::vector<EepaStyle> styles = {
       {"pair", "gran/eepa", "elasto-plastic adhesive frictional contact law",
        pair_maker<PairGranEepa>, nullptr, nullptr},
+#ifdef _OPENMP
+      {"pair", "gran/eepa/omp", "the same with threads", pair_maker<PairGranEepaOMP>, nullptr,
+       nullptr},
+#endif
       {"fix", "wall/gran/eepa", "walls of pair style gran/eepa", nullptr,
        maker<Fix, FixWallGranEepa>, nullptr},
       {"compute", "gran/eepa/contacts", "contacts by branch, coordination number", nullptr, nullptr,

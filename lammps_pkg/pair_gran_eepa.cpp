@@ -209,8 +209,9 @@ void PairGranEepa::init_history()
                "sds can not be switched on or off with a restart",
                style_name, restart_history_size, size);
   if (!fix_history) {
+    // never NEIGH_HISTORY/omp: with newton on it forgets contacts with ghosts
     fix_history = dynamic_cast<FixNeighHistory *>(modify->replace_fix(
-        history_id + "_DUMMY", fmt::format("{} all NEIGH_HISTORY {}", history_id, size), 1));
+        history_id + "_DUMMY", fmt::format("{} all NEIGH_HISTORY {}", history_id, size), 0));
     fix_history->pair = this;
   } else if (fix_history->get_dnum() != size) {
     error->all(FLERR, "{}: rolling sds can not be switched on or off after a run", style_name);
@@ -437,7 +438,9 @@ void PairGranEepa::unpack_forward_comm(int n, int first, double *buf)
 
 double PairGranEepa::memory_usage()
 {
-  return Pair::memory_usage() + masses.memory_usage() +
+  double bytes = Pair::memory_usage() + masses.memory_usage() +
       static_cast<double>(parameters.capacity() * sizeof(eepa::Parameters) +
                           coefficients.capacity() * sizeof(eepa::Coefficients));
+  for (const ContactSlice &slice : slices) bytes += slice.memory_usage();
+  return bytes;
 }
