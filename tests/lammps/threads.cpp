@@ -25,6 +25,12 @@ class ParallelThreads : public testing::TestWithParam<Law> {
  protected:
   const Law &law = GetParam();
 
+  static int ranks()
+  {
+    int count;
+    MPI_Comm_size(MPI_COMM_WORLD, &count);
+    return count;
+  }
   /// \param threads  0: gran/eepa itself
   void start(Simulation &simulation, int threads, const std::string &newton = "on",
              const std::string &after = "")
@@ -55,7 +61,8 @@ TEST_P(ParallelThreads, GiveTheMotionOfOne)
 {
   for (const char *newton : {"on", "off"}) {
     const auto serial = motion(0, newton);
-    for (const int threads : {1, 2, 3, 5}) {
+    for (const int threads : {1, 2, 5}) {
+      if (ranks() * threads > 8) continue;    // a handful of cores would be at it for minutes
       const auto threaded = motion(threads, newton);
       EXPECT_LT(difference(serial, threaded), 1e-10) << threads << " threads, newton " << newton;
       EXPECT_EQ(difference(threaded, motion(threads, newton)), 0.0) << "another run";
@@ -103,18 +110,21 @@ TEST_P(ParallelThreads, KeepTheLedgerAndTheTallies)
 TEST_P(ParallelThreads, ReadAndWriteTheSameRestarts)
 {
   const ScratchFile file(".restart");
-  Simulation written, serial, threaded;
+  Simulation written;
   start(written, 2);
   written.run(150);
   written("write_restart " + file.name());
-  const std::string go_on = "read_restart " + file.name() +
-      "\ncomm_modify vel yes\nneighbor 0.1 bin\nneigh_modify every 1 delay 0 check yes\n"
-      "thermo 1000000\nfix integrate all nve/sphere\ntimestep 2e-4";
-  serial("suffix off\n" + go_on);
-  threaded("package omp 3\nsuffix omp\n" + go_on);
-  for (auto *simulation : {&written, &serial, &threaded}) simulation->run(150);
-  EXPECT_LT(difference(written.particles(), serial.particles()), 1e-10);
-  EXPECT_LT(difference(written.particles(), threaded.particles()), 1e-10);
+  written.run(150);
+  for (const int threads : {0, 3}) {
+    // made only now: LAMMPS takes the number of threads that the last one in the process had
+    Simulation other;
+    if (threads) other("package omp " + std::to_string(threads) + "\nsuffix omp");
+    other("read_restart " + file.name() +
+          "\ncomm_modify vel yes\nneighbor 0.1 bin\nneigh_modify every 1 delay 0 check yes\n"
+          "thermo 1000000\nfix integrate all nve/sphere\ntimestep 2e-4");
+    other.run(150);
+    EXPECT_LT(difference(written.particles(), other.particles()), 1e-10) << threads;
+  }
 }
 
 const Law laws[] = {
