@@ -129,7 +129,7 @@ TEST(RampedPressure, IsTakenAtTheEndOfEachStep)
 /* ---------------------------------------------------------------------- on a spring */
 
 struct Spring {
-  const char *name, *load;
+  const char *name, *axis, *load;
 };
 class Oscillation : public testing::TestWithParam<Spring> {};
 
@@ -140,12 +140,15 @@ TEST_P(Oscillation, IsVerletsOwn)
 {
   const double stiffness = 1e4, mass = 2.0, dt = 1e-3, amplitude = 0.005;
   Simulation simulation;
-  open(simulation, {{Vec3(0, 0, 0.01)}}, dt);
-  const bool by_contact = std::string(GetParam().name) == "contact";
+  const std::string axis = GetParam().axis;
+  Vec3 x = Vec3::Zero();
+  x[axis[0] - 'x'] = 0.01;
+  open(simulation, {{x}}, dt);
+  const bool by_contact = std::string(GetParam().name) != "variable";
   const double centre = by_contact ? 0.5 : 2.0;    // at an overlap of 0.01, where 100 hold it
   simulation("variable spring equal -1e4*(f_top[4]-2)\n"
-             "fix top all wall/gran/eepa linear coeff 1e4 1e4 0 0 0 wall zplane NULL " +
-             exact(centre + amplitude) + " load " + GetParam().load);
+             "fix top all wall/gran/eepa linear coeff 1e4 1e4 0 0 0 wall " +
+             axis + "plane NULL " + exact(centre + amplitude) + " load " + GetParam().load);
   const double omega = std::sqrt(stiffness / mass);
   const double theta = std::acos(1.0 - 0.5 * omega * omega * dt * dt);
   for (int n = 0; n <= 1000; n += 37) {
@@ -161,7 +164,10 @@ TEST_P(Oscillation, IsVerletsOwn)
   const double period = 2.0 * pi * dt / theta;
   EXPECT_NEAR(period, 2.0 * pi * std::sqrt(mass / stiffness), 1e-3 * period);
 }
-const Spring springs[] = {{"contact", "-100 mass 2"}, {"variable", "v_spring mass 2"}};
+const Spring springs[] = {{"contact_x", "x", "-100 mass 2"},
+                          {"contact_y", "y", "-100 mass 2"},
+                          {"contact_z", "z", "-100 mass 2"},
+                          {"variable", "z", "v_spring mass 2"}};
 INSTANTIATE_TEST_SUITE_P(Springs, Oscillation, testing::ValuesIn(springs), [](const auto &info) {
   return std::string(info.param.name);
 });
