@@ -49,6 +49,8 @@ namespace {
       return words_[next_++];
     }
     double number(const std::string &name) { return parse_number(name, word(name)); }
+    /// The next word, not read.
+    const std::string &peek() const { return words_[next_]; }
 
     /// A keyword, each at most once.
     std::string keyword()
@@ -103,6 +105,38 @@ namespace {
     } else {
       refuse("rolling model '" + model + "' is unknown: it must be none, constant or sds");
     }
+  }
+
+  Quantity parse_quantity(Reader &reader, const std::string &name)
+  {
+    const std::string &word = reader.word(name);
+    Quantity quantity;
+    if (word.compare(0, 2, "v_") != 0)
+      quantity.value = parse_number(name, word);
+    else if (word.size() > 2)
+      quantity.variable = word.substr(2);
+    else
+      refuse(name + " = v_ names no variable");
+    return quantity;
+  }
+
+  /// A limit of travel; NULL leaves `open` as it is.
+  double parse_limit(Reader &reader, const std::string &name, double open)
+  {
+    const std::string &word = reader.word(name);
+    return word == "NULL" ? open : parse_number(name, word);
+  }
+
+  std::string brief(double value)
+  {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%g", value);
+    return text;
+  }
+
+  [[noreturn]] void refuse_value(const std::string &name, double value, const std::string &allowed)
+  {
+    refuse(name + " = " + brief(value) + " is not allowed: it must be " + allowed);
   }
 
   /// An enumerator that a restart file stored; a cast of any other number is undefined.
@@ -198,6 +232,48 @@ std::size_t parse_parameters(const Words &words, std::size_t first, const std::s
   }
   require_valid(p, settings, warnings);
   parameters = p;
+  return reader.position();
+}
+
+std::size_t parse_load(const Words &words, std::size_t first, const Words &others,
+                       LoadArguments &load)
+{
+  Reader reader(words, first, "");
+  load = LoadArguments();
+  load.by_pressure = !reader.done() && reader.peek() == "pressure";
+  if (load.by_pressure) {
+    reader.keyword();
+    load.pressure = parse_quantity(reader, "load pressure");
+  } else {
+    load.force = parse_quantity(reader, "load force");
+  }
+  bool has_mass = false, has_area = false;
+  while (!reader.done() && std::find(others.begin(), others.end(), reader.peek()) == others.end()) {
+    const std::string key = reader.keyword();
+    if (key == "mass") {
+      has_mass = true;
+      load.mass = reader.number("load mass");
+      if (load.mass <= 0.0) refuse_value("load mass", load.mass, "> 0");
+    } else if (key == "area") {
+      has_area = true;
+      load.area = parse_quantity(reader, "load area");
+      if (load.area.variable.empty() && load.area.value <= 0.0)
+        refuse_value("load area", load.area.value, "> 0");
+    } else if (key == "damping") {
+      load.damping = reader.number("load damping");
+      if (load.damping < 0.0) refuse_value("load damping", load.damping, ">= 0");
+    } else if (key == "limits") {
+      load.lowest = parse_limit(reader, "load limits lo", load.lowest);
+      load.highest = parse_limit(reader, "load limits hi", load.highest);
+      if (load.lowest > load.highest)
+        refuse_value("load limits lo", load.lowest, "<= hi = " + brief(load.highest));
+    } else {
+      refuse("load keyword '" + key + "' is unknown: it must be mass, area, damping or limits");
+    }
+  }
+  if (!has_mass) refuse("load: missing keyword mass");
+  if (load.by_pressure && !has_area) refuse("load pressure: missing keyword area");
+  if (!load.by_pressure && has_area) refuse("load area is allowed with load pressure only");
   return reader.position();
 }
 

@@ -5,11 +5,12 @@
 #include <eepa/parameters.h>
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
-// The one parser of everything that a pair_style, a pair_coeff and a wall have in common. It
-// knows nothing of LAMMPS, so that it can be tested and fuzzed alone.
+// The one parser of everything that a pair_style, a pair_coeff and a wall have in common, and of a
+// wall's load. It knows nothing of LAMMPS, so that it can be tested and fuzzed alone.
 
 namespace eepa {
 
@@ -39,6 +40,32 @@ std::size_t parse_style(const Words &words, std::size_t first, const std::string
 /// \throw std::invalid_argument naming argument, value and what is allowed
 std::size_t parse_parameters(const Words &words, std::size_t first, const std::string &stop,
                              const LawSettings &settings, Parameters &parameters, Words &warnings);
+
+/// A number, or a variable that gives it.
+struct Quantity {
+  double value = 0.0;
+  std::string variable;    ///< name without v_; empty where a number was given
+};
+
+/// What drives a platen, and how it answers. Along the plane's axis.
+struct LoadArguments {
+  bool by_pressure = false;    ///< else by a force
+  Quantity force;              ///< > 0 towards + [force]
+  Quantity pressure;           ///< > 0 towards the particles [force/length^2]
+  Quantity area;               ///< > 0 [length^2]
+  double mass = 0.0;           ///< > 0 [mass]
+  double damping = 0.0;        ///< >= 0 [mass/time]
+  double lowest = -std::numeric_limits<double>::infinity();    ///< limits of travel [length]
+  double highest = std::numeric_limits<double>::infinity();
+};
+
+/// Reads `F|pressure p area A mass M [damping c] [limits lo hi]` from words[first] on; F, p and A
+/// may be v_name.
+/// \param others  keywords that end the arguments
+/// \return index of the first word not read
+/// \throw std::invalid_argument naming argument, value and what is allowed
+std::size_t parse_load(const Words &words, std::size_t first, const Words &others,
+                       LoadArguments &load);
 
 /// Reads a finite number.
 /// \throw std::invalid_argument naming `name` and the word

@@ -26,8 +26,10 @@
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr double restart_format = 1.0;
-constexpr int restart_size = 6;    // format, values an atom, displacement, time origin
+constexpr double restart_format = 2.0;
+// format, values an atom, displacement, time origin; whether there is a platen, its position,
+// velocity, work and dissipation
+constexpr int restart_size = 11;
 }    // namespace
 
 FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
@@ -169,15 +171,17 @@ int FixWallGranEepa::parse_motion(int narg, char **arg, int iarg)
     contact_table = true;
     return iarg + 1;
   }
-  if (key != "velocity" && key != "wiggle" && key != "shear")
+  if (key != "velocity" && key != "wiggle" && key != "shear" && key != "load")
     error->all(
         FLERR,
-        "fix {} wall/gran/eepa: keyword '{}' is unknown: it must be velocity, wiggle, shear or "
-        "contacts",
+        "fix {} wall/gran/eepa: keyword '{}' is unknown: it must be velocity, wiggle, shear, load "
+        "or contacts",
         id, key);
   if (motion != Motion::still)
-    error->all(FLERR, "fix {} wall/gran/eepa: only one of velocity, wiggle and shear is allowed",
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: only one of velocity, wiggle, shear and load is allowed",
                id);
+  if (key == "load") return parse_load(narg, arg, iarg + 1);
 
   if (key == "velocity") {
     require(narg, iarg, 4, "velocity vx vy vz");
@@ -214,11 +218,36 @@ int FixWallGranEepa::parse_motion(int narg, char **arg, int iarg)
   return iarg + 3;
 }
 
+int FixWallGranEepa::parse_load(int narg, char **arg, int iarg)
+{
+  if (!surfaces.is_plane() || surfaces.count() != 1)
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: load is not allowed with wall {}: it needs one plane alone, "
+               "lo or hi",
+               id, surfaces.is_plane() ? "lo hi" : "zcylinder");
+  motion = Motion::load;
+  const eepa::Words words(arg, arg + narg);
+  try {
+    iarg = static_cast<int>(
+        eepa::parse_load(words, iarg, {"velocity", "wiggle", "shear", "load", "contacts"}, load));
+  } catch (const std::invalid_argument &e) {
+    error->all(FLERR, "fix {} wall/gran/eepa: {}", id, e.what());
+  }
+  platen.mass = load.mass;
+  platen.damping = load.damping;
+  platen.lowest = load.lowest;
+  platen.highest = load.highest;
+  platen.position = surfaces.position();
+  return iarg;
+}
+
 /* ---------------------------------------------------------------------- set-up */
 
 int FixWallGranEepa::setmask()
 {
-  return FixConst::INITIAL_INTEGRATE | FixConst::POST_FORCE;
+  int mask = FixConst::INITIAL_INTEGRATE | FixConst::POST_FORCE;
+  if (motion == Motion::load) mask |= FixConst::FINAL_INTEGRATE;
+  return mask;
 }
 
 void FixWallGranEepa::init()
@@ -228,17 +257,28 @@ void FixWallGranEepa::init()
     error->all(FLERR, "fix {} wall/gran/eepa can not be used with run_style respa", id);
   masses.init("fix wall/gran/eepa");
   keep_ledger = EnergyLedger::wanted(modify);
-  for (const auto &name : velocity_variable) {
-    if (name.empty()) continue;
-    const int index = input->variable->find(name.c_str());
-    if (index < 0)
-      error->all(FLERR, "fix {} wall/gran/eepa: velocity variable {} does not exist", id, name);
-    if (!input->variable->equalstyle(index))
-      error->all(
-          FLERR,
-          "fix {} wall/gran/eepa: velocity variable {} is not allowed: it must be equal-style", id,
-          name);
-  }
+  for (const auto &name : velocity_variable) require_equal_style("velocity", name);
+  require_equal_style("load force", load.force.variable);
+  require_equal_style("load pressure", load.pressure.variable);
+  require_equal_style("load area", load.area.variable);
+  if (motion == Motion::load &&
+      (platen.position < platen.lowest || platen.position > platen.highest))
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: load limits {:.6g} to {:.6g} are not allowed: the plane is "
+               "at {:.6g}, outside of them",
+               id, platen.lowest, platen.highest, platen.position);
+}
+
+void FixWallGranEepa::require_equal_style(const char *what, const std::string &variable)
+{
+  if (variable.empty()) return;
+  const int index = input->variable->find(variable.c_str());
+  if (index < 0)
+    error->all(FLERR, "fix {} wall/gran/eepa: {} variable {} does not exist", id, what, variable);
+  if (!input->variable->equalstyle(index))
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: {} variable {} is not allowed: it must be equal-style", id,
+               what, variable);
 }
 
 void FixWallGranEepa::reset_dt()
@@ -248,17 +288,56 @@ void FixWallGranEepa::reset_dt()
 
 TimeStepBound FixWallGranEepa::largest_time_step()
 {
-  double mine = std::numeric_limits<double>::infinity();
+  TimeStepBound bound = {contact_time_step(), std::string("fix ") + id};
+  if (motion == Motion::load) bound.time_step = std::min(bound.time_step, platen_time_step());
+  return bound;
+}
+
+double FixWallGranEepa::contact_time_step()
+{
+  double mine = std::numeric_limits<double>::infinity(), stiffest = 0.0;
   const double *mass = masses.masses();
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit) || std::isinf(mass[i])) continue;
+    if (!(atom->mask[i] & groupbit)) continue;
     const double stiffness = eepa::largest_stiffness(coefficients, 2.0 * atom->radius[i]);
-    mine = std::min(mine, eepa::largest_time_step(mass[i], stiffness));
+    stiffest = std::max(stiffest, stiffness);
+    if (!std::isinf(mass[i])) mine = std::min(mine, eepa::largest_time_step(mass[i], stiffness));
   }
-  TimeStepBound bound;
-  MPI_Allreduce(&mine, &bound.time_step, 1, MPI_DOUBLE, MPI_MIN, world);
-  bound.origin = std::string("fix ") + id;
+  double bound;
+  MPI_Allreduce(&mine, &bound, 1, MPI_DOUBLE, MPI_MIN, world);
+  if (motion == Motion::load)
+    MPI_Allreduce(&stiffest, &load_stiffness, 1, MPI_DOUBLE, MPI_MAX, world);
   return bound;
+}
+
+double FixWallGranEepa::platen_time_step() const
+{
+  // on its contacts the platen is a mass on springs side by side
+  const double stiffness = felt_vector[CONTACTS] * load_stiffness;
+  return stiffness > 0.0 ? eepa::largest_time_step(platen.mass, stiffness)
+                         : std::numeric_limits<double>::infinity();
+}
+
+void FixWallGranEepa::check_platen()
+{
+  if (style.time_step_check == eepa::TimeStepCheck::off || platen_warned) return;
+  const double bound = platen_time_step();
+  if (dt <= bound) return;
+  platen_warned = true;
+  complain(
+      fmt::format("fix {} wall/gran/eepa: timestep {:.6g} is larger than {:.6g} = 0.2 "
+                  "sqrt(m/(n k_max)) of the platen of mass m = {:.6g} on its n = {:.0f} contacts; "
+                  "make it at least as heavy as the particles that touch it",
+                  id, dt, bound, platen.mass, felt_vector[CONTACTS]));
+}
+
+/// As dtcheck says: an error or a warning.
+void FixWallGranEepa::complain(const std::string &message)
+{
+  if (style.time_step_check == eepa::TimeStepCheck::error)
+    error->all(FLERR, message);
+  else if (comm->me == 0)
+    error->warning(FLERR, message);
 }
 
 /* ---------------------------------------------------------------------- per-atom arrays */
@@ -331,9 +410,17 @@ int FixWallGranEepa::size_restart(int /*i*/)
 void FixWallGranEepa::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
-  const double numbers[restart_size] = {restart_format,  static_cast<double>(n_values),
-                                        displacement[0], displacement[1],
-                                        displacement[2], static_cast<double>(time_origin)};
+  const double numbers[restart_size] = {restart_format,
+                                        static_cast<double>(n_values),
+                                        displacement[0],
+                                        displacement[1],
+                                        displacement[2],
+                                        static_cast<double>(time_origin),
+                                        motion == Motion::load ? 1.0 : 0.0,
+                                        platen.position,
+                                        platen.velocity,
+                                        platen.work,
+                                        platen.dissipated};
   const int bytes = sizeof(numbers);
   fwrite(&bytes, sizeof(int), 1, fp);
   fwrite(numbers, sizeof(double), restart_size, fp);
@@ -342,13 +429,26 @@ void FixWallGranEepa::write_restart(FILE *fp)
 void FixWallGranEepa::restart(char *buf)
 {
   double numbers[restart_size];
-  std::memcpy(numbers, buf, sizeof(numbers));
+  // another format may be shorter
+  std::memcpy(numbers, buf, sizeof(double));
   if (numbers[0] != restart_format)
     error->all(FLERR,
                "fix {} wall/gran/eepa: the restart file has format {}, this version reads {}", id,
                numbers[0], restart_format);
+  std::memcpy(numbers, buf, sizeof(numbers));
+  const bool had_platen = numbers[6] != 0.0;
+  if (had_platen != (motion == Motion::load))
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: the wall of the restart file {} driven by load: this one "
+               "must be likewise",
+               id, had_platen ? "is" : "is not");
   std::copy_n(numbers + 2, 3, displacement.begin());
   time_origin = static_cast<bigint>(numbers[5]);
+  if (!had_platen) return;
+  platen.position = numbers[7];
+  platen.velocity = numbers[8];
+  platen.work = numbers[9];
+  platen.dissipated = numbers[10];
 }
 
 double FixWallGranEepa::memory_usage()

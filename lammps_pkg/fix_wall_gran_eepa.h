@@ -14,6 +14,7 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 #include "eepa_commands.h"
 #include "energy_ledger.h"
 #include "pair_gran_eepa.h"    // TimeStepBound
+#include "platen.h"
 #include "wall_surface.h"
 
 #include <eepa/coefficients.h>
@@ -34,6 +35,7 @@ class FixWallGranEepa : public Fix {
   void setup(int) override;
   void initial_integrate(int) override;
   void post_force(int) override;
+  void final_integrate() override;
   void reset_dt() override;
   double compute_vector(int) override;
   double memory_usage() override;
@@ -70,6 +72,10 @@ class FixWallGranEepa : public Fix {
     SECOND_FORCE_X,    ///< on the second surface (hi next to lo), else 0
     SECOND_FORCE_Y,
     SECOND_FORCE_Z,
+    LOAD_FORCE,    ///< of `load`, along the plane's axis
+    LOAD_KINETIC_ENERGY,
+    LOAD_WORK,          ///< done by LOAD_FORCE so far
+    LOAD_DISSIPATED,    ///< by the platen's damping and at its limits so far
     N_VECTOR
   };
   /// the per-atom table that keyword `contacts` asks for
@@ -87,7 +93,7 @@ class FixWallGranEepa : public Fix {
     ATOM_SLIP,
     N_ATOM
   };
-  enum class Motion { still, velocity, wiggle, shear };
+  enum class Motion { still, velocity, wiggle, shear, load };
   /// what a surface felt in the last force call, this rank's part
   struct SurfaceSum {
     double force[3];
@@ -107,6 +113,11 @@ class FixWallGranEepa : public Fix {
   int motion_axis = 0;
   double amplitude = 0.0, period = 0.0, shear_velocity = 0.0;
   bigint time_origin = 0;
+  eepa::LoadArguments load;
+  Platen platen;
+  double load_now = 0.0;          // force from outside at the last force call
+  double load_stiffness = 0.0;    // the largest of a contact with the platen, all ranks
+  bool platen_warned = false;
 
   double dt = 0.0;
   int history_size;              // values of one contact
@@ -120,17 +131,29 @@ class FixWallGranEepa : public Fix {
   EnergyLedger ledger;
   bool keep_ledger = false;
   double power = 0.0;    // of the surfaces on this rank's particles, at the last force call
+  double push = 0.0;     // of the platen on them along its axis, likewise
 
   typedef void (FixWallGranEepa::*Loop)();
   Loop loop = nullptr;
 
   int parse_wall(int narg, char **arg, int iarg);
   int parse_motion(int narg, char **arg, int iarg);
+  int parse_load(int narg, char **arg, int iarg);
   double number(const char *name, const char *word);
   int dimension(const char *name, const char *word);
   void require(int narg, int iarg, int count, const char *what);
+  void require_equal_style(const char *what, const std::string &variable);
   void evaluate_velocity();
+  double evaluate(const char *what, const eepa::Quantity &quantity);
+  double evaluate_load();
   void move_surfaces();
+  void sum_forces();
+  /// The largest stable time step of particles on the wall. Collective.
+  double contact_time_step();
+  /// The largest stable time step of the platen on the contacts that it has now.
+  double platen_time_step() const;
+  void check_platen();
+  void complain(const std::string &message);
   void stop_at_overlap(int i, double overlap) const;
   template <class ContactLaw> void contact_loop();
 };

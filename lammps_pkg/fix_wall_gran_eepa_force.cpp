@@ -38,8 +38,43 @@ void FixWallGranEepa::evaluate_velocity()
   modify->addstep_compute(update->ntimestep + 1);
 }
 
+double FixWallGranEepa::evaluate(const char *what, const eepa::Quantity &quantity)
+{
+  if (quantity.variable.empty()) return quantity.value;
+  const double value =
+      input->variable->compute_equal(input->variable->find(quantity.variable.c_str()));
+  if (!std::isfinite(value))
+    error->all(FLERR, "fix {} wall/gran/eepa: {} variable {} = {} at step {} is not finite", id,
+               what, quantity.variable, value, update->ntimestep);
+  return value;
+}
+
+/// The force from outside along the plane's axis. Its variables may ask for this fix's own vector.
+double FixWallGranEepa::evaluate_load()
+{
+  const bool any = !load.force.variable.empty() || !load.pressure.variable.empty() ||
+      !load.area.variable.empty();
+  if (any) modify->clearstep_compute();
+  double applied;
+  if (load.by_pressure) {
+    const double pressure = evaluate("load pressure", load.pressure);
+    const double area = evaluate("load area", load.area);
+    if (area <= 0.0)
+      error->all(FLERR,
+                 "fix {} wall/gran/eepa: load area variable {} = {} at step {} is not allowed: it "
+                 "must be > 0",
+                 id, load.area.variable, area, update->ntimestep);
+    applied = pressure * area * surfaces.inward();
+  } else {
+    applied = evaluate("load force", load.force);
+  }
+  if (any) modify->addstep_compute(update->ntimestep + 1);
+  return applied;
+}
+
 void FixWallGranEepa::initial_integrate(int /*vflag*/)
 {
+  if (motion == Motion::load) platen.start_step(dt);
   if (motion != Motion::velocity) return;
   // the positions that the next force call meets are those of the end of this step
   evaluate_velocity();
@@ -71,25 +106,22 @@ void FixWallGranEepa::move_surfaces()
       else
         surfaces.surface_speed = shear_velocity;
       break;
+    case Motion::load:
+      surfaces.place(platen.position);
+      surfaces.velocity[surfaces.axis()] = platen.velocity;
+      break;
   }
 }
 
 void FixWallGranEepa::setup(int vflag)
 {
   if (motion == Motion::velocity) evaluate_velocity();
-  if (style.time_step_check != eepa::TimeStepCheck::off) {
-    const TimeStepBound bound = largest_time_step();
-    if (update->dt > bound.time_step) {
-      const auto message = fmt::format(
-          "fix {} wall/gran/eepa: timestep {:.6g} is larger than {:.6g} = 0.2 sqrt(m_min/k_max) of "
-          "contacts with this wall",
-          id, update->dt, bound.time_step);
-      if (style.time_step_check == eepa::TimeStepCheck::error)
-        error->all(FLERR, message);
-      else if (comm->me == 0)
-        error->warning(FLERR, message);
-    }
-  }
+  platen_warned = false;    // its own bound is checked where its contacts are known
+  const double bound = contact_time_step();
+  if (style.time_step_check != eepa::TimeStepCheck::off && update->dt > bound)
+    complain(fmt::format("fix {} wall/gran/eepa: timestep {:.6g} is larger than {:.6g} = 0.2 "
+                         "sqrt(m_min/k_max) of contacts with this wall",
+                         id, update->dt, bound));
   post_force(vflag);
 }
 
@@ -107,7 +139,26 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   const double power_before = power;
   power = 0.0;
   (this->*loop)();
-  if (keep_ledger && update->setupflag == 0) ledger.wall_work += 0.5 * (power_before + power) * dt;
+  const bool step = update->setupflag == 0;
+  if (motion == Motion::load) {
+    const int dim = surfaces.axis();
+    const double push_before = push;
+    push = -felt[0].force[dim];
+    // a platen's velocity may change within a step: force times way is what Verlet integrates
+    if (keep_ledger && step) ledger.wall_work += 0.5 * (push_before + push) * platen.travel();
+    // MPI gives every rank the same bits, so that all move the same platen
+    sum_forces();
+    load_now = evaluate_load();
+    if (!step) platen.set_forces(load_now, felt_vector[FORCE_X + dim]);
+    check_platen();
+  } else if (keep_ledger && step) {
+    ledger.wall_work += 0.5 * (power_before + power) * dt;
+  }
+}
+
+void FixWallGranEepa::final_integrate()
+{
+  platen.end_step(load_now, felt_vector[FORCE_X + surfaces.axis()], dt);
 }
 
 template <class ContactLaw> void FixWallGranEepa::contact_loop()
@@ -207,24 +258,36 @@ void FixWallGranEepa::stop_at_overlap(int i, double overlap) const
       id, atom->tag[i], overlap, update->ntimestep, atom->radius[i]);
 }
 
+/// Brings the forces and contacts of all ranks together. Collective.
+void FixWallGranEepa::sum_forces()
+{
+  double mine[8], all[8];
+  for (int s = 0; s < 2; s++) {
+    std::copy_n(felt[s].force, 3, mine + 4 * s);
+    mine[4 * s + 3] = felt[s].contacts;
+  }
+  MPI_Allreduce(mine, all, 8, MPI_DOUBLE, MPI_SUM, world);
+  for (int k = 0; k < 3; k++) {
+    felt_vector[FIRST_FORCE_X + k] = all[k];
+    felt_vector[SECOND_FORCE_X + k] = all[4 + k];
+    felt_vector[FORCE_X + k] = all[k] + all[4 + k];
+  }
+  felt_vector[CONTACTS] = all[3] + all[7];
+  felt_reduced = update->ntimestep;
+}
+
 double FixWallGranEepa::compute_vector(int n)
 {
-  if (felt_reduced != update->ntimestep) {
-    double mine[8], all[8];
-    for (int s = 0; s < 2; s++) {
-      std::copy_n(felt[s].force, 3, mine + 4 * s);
-      mine[4 * s + 3] = felt[s].contacts;
-    }
-    MPI_Allreduce(mine, all, 8, MPI_DOUBLE, MPI_SUM, world);
-    for (int k = 0; k < 3; k++) {
-      felt_vector[FIRST_FORCE_X + k] = all[k];
-      felt_vector[SECOND_FORCE_X + k] = all[4 + k];
-      felt_vector[FORCE_X + k] = all[k] + all[4 + k];
-    }
-    felt_vector[CONTACTS] = all[3] + all[7];
-    felt_reduced = update->ntimestep;
-  }
+  if (felt_reduced != update->ntimestep) sum_forces();
   felt_vector[POSITION] = surfaces.position();
   felt_vector[VELOCITY] = surfaces.normal_velocity();
+  if (motion == Motion::load) {
+    felt_vector[POSITION] = platen.position;
+    felt_vector[VELOCITY] = platen.velocity;
+    felt_vector[LOAD_FORCE] = load_now;
+    felt_vector[LOAD_KINETIC_ENERGY] = platen.kinetic_energy();
+    felt_vector[LOAD_WORK] = platen.work;
+    felt_vector[LOAD_DISSIPATED] = platen.dissipated;
+  }
   return felt_vector[n];
 }

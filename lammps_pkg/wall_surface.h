@@ -40,6 +40,10 @@ class WallSurfaces {
   {
     return is_plane() ? (has_lo ? lo : hi) + displacement[axis()] : radius;
   }
+  /// Puts a single plane there, without displacement.
+  void place(double coordinate) { (has_lo ? lo : hi) = coordinate; }
+  /// From the first plane to the particles: 1 or -1 along the axis.
+  double inward() const { return has_lo ? 1.0 : -1.0; }
   double normal_velocity() const { return is_plane() ? velocity[axis()] : 0.0; }
 
   /// Whether nearest() would find an overlap: for the many particles that are nowhere near.

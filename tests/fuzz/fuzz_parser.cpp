@@ -18,12 +18,12 @@ namespace {
 
 using eepa::Words;
 
-#define REQUIRE(condition)                                                              \
-  do {                                                                                  \
-    if (!(condition)) {                                                                 \
-      std::fprintf(stderr, "%s:%d: violated: %s\n", __FILE__, __LINE__, #condition);    \
-      std::abort();                                                                     \
-    }                                                                                   \
+#define REQUIRE(condition)                                                           \
+  do {                                                                               \
+    if (!(condition)) {                                                              \
+      std::fprintf(stderr, "%s:%d: violated: %s\n", __FILE__, __LINE__, #condition); \
+      std::abort();                                                                  \
+    }                                                                                \
   } while (false)
 
 Words split(const std::string &text)
@@ -88,19 +88,37 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
 
   for (const auto &word : words) {
     double value = 0.0;
-    if (accepted([&] { value = eepa::parse_number("number", word); })) REQUIRE(std::isfinite(value));
+    if (accepted([&] {
+          value = eepa::parse_number("number", word);
+        }))
+      REQUIRE(std::isfinite(value));
   }
 
   // as a wall has it: style arguments, coeff, parameters, wall
   eepa::StyleArguments style;
   std::size_t next = 0;
-  if (accepted([&] { next = eepa::parse_style(words, 0, "coeff", style); })) {
+  if (accepted([&] {
+        next = eepa::parse_style(words, 0, "coeff", style);
+      })) {
     REQUIRE(next > 0 && next <= words.size());
     REQUIRE(next == words.size() || words[next] == "coeff");
     REQUIRE(eepa::validate(style.settings).errors.empty());
     const auto packed = eepa::pack(style);
     REQUIRE(same_bits(packed, eepa::pack(eepa::unpack_style(packed))));
     check_parameters(words, next + 1, "wall", style.settings);
+  }
+
+  // as a wall's motion has it
+  eepa::LoadArguments load;
+  if (accepted([&] {
+        next = eepa::parse_load(words, 0, {"contacts"}, load);
+      })) {
+    REQUIRE(next > 0 && next <= words.size());
+    REQUIRE(next == words.size() || words[next] == "contacts");
+    REQUIRE(std::isfinite(load.mass) && load.mass > 0.0);
+    REQUIRE(std::isfinite(load.damping) && load.damping >= 0.0);
+    REQUIRE(load.lowest <= load.highest);
+    REQUIRE(load.area.value > 0.0 || !load.area.variable.empty() || !load.by_pressure);
   }
 
   // as pair_coeff has it, to the end

@@ -137,13 +137,15 @@ class OtherFormat : public testing::Test {
 
 TEST_F(OtherFormat, OfTheWallIsRefusedByName)
 {
-  write();
-  // format, values a particle, displacement
-  patch(1.0, {4.0, 0.0, 0.0, 16 * 0.0625 * 0.0001220703125}, 9.0);
-  Simulation restarted;
-  EXPECT_TRUE(
-      refuses(restarted, "read_restart " + file.name() + "\n" + box + wall,
-              "fix wall wall/gran/eepa: the restart file has format 9, this version reads 1"));
+  for (const int other : {1, 9}) {    // 1 had no platen
+    write();
+    // format, values a particle, displacement
+    patch(2.0, {4.0, 0.0, 0.0, 16 * 0.0625 * 0.0001220703125}, other);
+    Simulation restarted;
+    EXPECT_TRUE(refuses(restarted, "read_restart " + file.name() + "\n" + box + wall,
+                        "fix wall wall/gran/eepa: the restart file has format " +
+                            std::to_string(other) + ", this version reads 2"));
+  }
 }
 
 TEST_F(OtherFormat, UnchangedIsRead)

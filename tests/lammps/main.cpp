@@ -12,17 +12,20 @@ namespace {
 class FailuresOfOneRank : public testing::EmptyTestEventListener {
  public:
   explicit FailuresOfOneRank(int rank) : rank_(rank) {}
+  void OnTestStart(const testing::TestInfo &test) override { test_ = &test; }
   void OnTestPartResult(const testing::TestPartResult &result) override
   {
     if (!result.failed()) return;
-    const auto *test = testing::UnitTest::GetInstance()->current_test_info();
-    std::fprintf(stderr, "rank %d: %s.%s: %s:%d: %s\n", rank_, test ? test->test_suite_name() : "?",
-                 test ? test->name() : "?", result.file_name() ? result.file_name() : "?",
-                 result.line_number(), result.message());
+    // to ask GoogleTest which test this is would wait for a lock that it holds while it calls
+    std::fprintf(stderr, "rank %d: %s.%s: %s:%d: %s\n", rank_,
+                 test_ ? test_->test_suite_name() : "?", test_ ? test_->name() : "?",
+                 result.file_name() ? result.file_name() : "?", result.line_number(),
+                 result.message());
   }
 
  private:
   int rank_;
+  const testing::TestInfo *test_ = nullptr;
 };
 }    // namespace
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -316,6 +317,65 @@ TEST(RequireValid, RefusesWhatOtherSettingsForbid)
   EXPECT_THROW(require_valid(p, style_of("plateau").settings, warnings), std::invalid_argument);
   EXPECT_THROW(require_valid(p, style_of("linear exponent 2").settings, warnings),
                std::invalid_argument);
+}
+
+LoadArguments load_of(const std::string &line, std::size_t *end = nullptr)
+{
+  LoadArguments load;
+  const std::size_t stop = parse_load(words(line), 0, {"contacts", "shear"}, load);
+  if (end) *end = stop;
+  return load;
+}
+
+TEST(LoadArguments, AreAForceOrAPressureAndAMass)
+{
+  const LoadArguments force = load_of("-5.5 mass 2");
+  EXPECT_FALSE(force.by_pressure);
+  EXPECT_EQ(force.force.value, -5.5);
+  EXPECT_EQ(force.force.variable, "");
+  EXPECT_EQ(force.mass, 2.0);
+  EXPECT_EQ(force.damping, 0.0);
+  EXPECT_EQ(force.lowest, -HUGE_VAL);
+  EXPECT_EQ(force.highest, HUGE_VAL);
+  const LoadArguments pressure =
+      load_of("pressure v_p limits -1 NULL damping 3 mass 1e-3 area v_a_2");
+  EXPECT_TRUE(pressure.by_pressure);
+  EXPECT_EQ(pressure.pressure.variable, "p");
+  EXPECT_EQ(pressure.area.variable, "a_2");
+  EXPECT_EQ(pressure.mass, 1e-3);
+  EXPECT_EQ(pressure.damping, 3.0);
+  EXPECT_EQ(pressure.lowest, -1.0);
+  EXPECT_EQ(pressure.highest, HUGE_VAL);
+  EXPECT_EQ(load_of("pressure 1e5 area 0.25 mass 1").area.value, 0.25);
+  EXPECT_EQ(load_of("1 mass 1 limits NULL 4").highest, 4.0);
+}
+
+TEST(LoadArguments, EndAtAKeywordOfAnother)
+{
+  std::size_t end = 0;
+  load_of("5 mass 2 damping 1", &end);
+  EXPECT_EQ(end, 5u);
+  load_of("5 mass 2 contacts damping 1", &end);
+  EXPECT_EQ(end, 3u);
+  EXPECT_NE(refusal([] {
+              load_of("contacts");
+            }),
+            "");
+  EXPECT_EQ(refusal([] {
+              load_of("5 contacts mass 2");
+            }),
+            "load: missing keyword mass");
+}
+
+TEST(LoadArguments, DoNotRememberAnEarlierCommand)
+{
+  LoadArguments load;
+  parse_load(words("pressure v_p area 2 mass 1 damping 2 limits 0 1"), 0, {}, load);
+  parse_load(words("5 mass 3"), 0, {}, load);
+  EXPECT_FALSE(load.by_pressure);
+  EXPECT_EQ(load.pressure.variable, "");
+  EXPECT_EQ(load.damping, 0.0);
+  EXPECT_EQ(load.highest, HUGE_VAL);
 }
 
 }    // namespace
