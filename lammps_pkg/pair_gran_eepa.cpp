@@ -388,14 +388,25 @@ void PairGranEepa::read_restart_settings(FILE *fp)
   restart_history_size = static_cast<int>(numbers.back());
 }
 
+void PairGranEepa::warn_of_data_file() const
+{
+  // LAMMPS calls write_data on rank 0 only
+  error->warning(FLERR,
+                 "{}: write_data writes the coefficients but not the history of contacts: they "
+                 "will start as new ones; use write_restart to go on with this run",
+                 style_name);
+}
+
 void PairGranEepa::write_data(FILE *fp)
 {
+  warn_of_data_file();
   for (int i = 1; i <= atom->ntypes; i++)
     fmt::print(fp, "{} {}\n", i, eepa::to_words(parameters[pair_index(i, i)]));
 }
 
 void PairGranEepa::write_data_all(FILE *fp)
 {
+  warn_of_data_file();
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++)
       fmt::print(fp, "{} {} {}\n", i, j, eepa::to_words(parameters[pair_index(i, j)]));

@@ -142,6 +142,7 @@ class PairGranEepa : public Pair {
   void init_radii();
   int history_size() const;
   void warn(const eepa::Words &);
+  void warn_of_data_file() const;
   int find_history(int i, int j, const double *&values, double &sign) const;
 
   template <class ContactLaw, bool Accounting> void contact_loop();

@@ -31,6 +31,37 @@ struct StoredEnergy {
   EEPA_FUNCTION double total() const { return normal + tangential + rolling; }
 };
 
+/// Coefficients of the dashpots of a contact [mass/time]
+struct Dashpots {
+  double root_mass_stiffness;    ///< sqrt(m* k), k the loading branch's tangent stiffness
+  double normal, tangential;     ///< B_n and B_t
+};
+
+template <class NormalLaw>
+EEPA_FUNCTION Dashpots dashpots(const Coefficients &c, const Scale &scale, double effective_mass,
+                                double overlap)
+{
+  Dashpots result;
+  double stiffness = scale.stiffness() * c.k1;
+  if constexpr (!NormalLaw::Exponent::is_unit)
+    stiffness *= NormalLaw::Exponent::slope(overlap, c, scale);
+  result.root_mass_stiffness = std::sqrt(effective_mass * stiffness);
+  const double normal_part = c.restitution_damping * result.root_mass_stiffness;
+  double tangential_part = normal_part * c.tangential_ratio;
+  if constexpr (!NormalLaw::Exponent::is_unit)
+    tangential_part = c.restitution_damping * std::sqrt(effective_mass * scale.stiffness() * c.kt);
+  result.normal = normal_part + scale.force() * c.viscous_normal;
+  result.tangential = tangential_part + scale.force() * c.viscous_tangential;
+  return result;
+}
+
+/// What |f_t| can not exceed: it has f_hys, never the dashpot. [force]
+EEPA_FUNCTION double friction_bound(const Coefficients &c, const NormalForce &normal)
+{
+  const double bound = c.mu * normal.coulomb_force + normal.coulomb_offset;
+  return bound > 0.0 ? bound : 0.0;
+}
+
 /// The law of one contact: normal, tangential, damping and rolling composed.
 /// \tparam NormalLaw  PlateauLaw, LinearLaw<UnitExponent> or LinearLaw<GeneralExponent>
 /// \tparam RollingLaw  RollingNone, RollingConstant or RollingSds
@@ -59,42 +90,28 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
     response.branch = normal.branch;
     response.hysteretic_force = normal.force;
 
-    // dashpots; the stiffness of n != 1 is the loading branch's tangent
-    double stiffness = scale.stiffness() * c.k1;
-    if constexpr (!NormalLaw::Exponent::is_unit)
-      stiffness *= NormalLaw::Exponent::slope(contact.overlap, c, scale);
-    const double root_mass_stiffness = std::sqrt(contact.effective_mass * stiffness);
-    const double normal_part = c.restitution_damping * root_mass_stiffness;
-    double tangential_part = normal_part * c.tangential_ratio;
-    if constexpr (!NormalLaw::Exponent::is_unit)
-      tangential_part =
-          c.restitution_damping * std::sqrt(contact.effective_mass * scale.stiffness() * c.kt);
-    const double viscous_normal = normal_part + scale.force() * c.viscous_normal;
-    const double viscous_tangential = tangential_part + scale.force() * c.viscous_tangential;
-
+    const Dashpots viscous = dashpots<NormalLaw>(c, scale, contact.effective_mass, contact.overlap);
     const double normal_velocity = contact.velocity.dot(contact.normal);
-    response.normal_force = normal.force - viscous_normal * normal_velocity;
+    response.normal_force = normal.force - viscous.normal * normal_velocity;
     if (limit_damping) {
       const double least = normal.force < 0.0 ? normal.force : 0.0;
       if (response.normal_force < least) response.normal_force = least;
     }
 
-    // friction; the bound has f_hys, never the dashpot
-    const double bound = c.mu * normal.coulomb_force + normal.coulomb_offset;
-    response.friction_bound = bound > 0.0 ? bound : 0.0;
+    response.friction_bound = friction_bound(c, normal);
     const Vec3 velocity = tangential_velocity(contact, normal_velocity);
     Vec3 &spring = history.tangential_spring;
     spring = rotate_into_plane(spring, contact.normal) + time_step * velocity;
     const SliderForce friction =
         slider_force(scale.stiffness() * c.kt, scale.inverse_size * c.inverse_kt,
-                     viscous_tangential, response.friction_bound, velocity, spring);
+                     viscous.tangential, response.friction_bound, velocity, spring);
     response.tangential_force = friction.force;
     response.sliding = friction.sliding;
 
     if constexpr (has_rolling)
       response.rolling_torque =
-          RollingLaw::torque(c, scale, contact, std::fabs(normal.force), root_mass_stiffness,
-                             time_step, history.rolling_spring);
+          RollingLaw::torque(c, scale, contact, std::fabs(normal.force),
+                             viscous.root_mass_stiffness, time_step, history.rolling_spring);
     return response;
   }
 

@@ -31,6 +31,18 @@ struct RollingConstant {
   static constexpr RollingModel model = RollingModel::constant;
   static constexpr bool has_spring = false;
 
+  /// c of the dashpot that caps the torque [force length time]
+  EEPA_FUNCTION static double dashpot(double effective_radius, double root_mass_stiffness)
+  {
+    return 0.4 * effective_radius * effective_radius * root_mass_stiffness;
+  }
+  /// The torque of fast rolling [force length]
+  EEPA_FUNCTION static double bound(const Coefficients &c, double effective_radius,
+                                    double hysteretic)
+  {
+    return c.mu_r * hysteretic * effective_radius;
+  }
+
   /// \param hysteretic  |f_hys| [force]
   /// \param root_mass_stiffness  sqrt(m* k) [mass/time]
   EEPA_FUNCTION static Vec3 torque(const Coefficients &c, const Scale &, const Contact &contact,
@@ -39,8 +51,8 @@ struct RollingConstant {
     const double radius = contact.effective_radius;
     const Vec3 rolling =
         contact.angular_velocity - contact.angular_velocity.dot(contact.normal) * contact.normal;
-    const double limit = c.mu_r * hysteretic * radius;
-    const double cap = 0.4 * radius * radius * root_mass_stiffness;
+    const double limit = bound(c, radius, hysteretic);
+    const double cap = dashpot(radius, root_mass_stiffness);
     const double rate_squared = rolling.squaredNorm();
     if (cap * cap * rate_squared <= limit * limit) return -cap * rolling;
     return -(limit / std::sqrt(rate_squared)) * rolling;
@@ -58,6 +70,17 @@ struct RollingSds {
   static constexpr RollingModel model = RollingModel::sds;
   static constexpr bool has_spring = true;
 
+  /// B of the pseudo-force, gr of this contact [mass/time]
+  EEPA_FUNCTION static double dashpot(const Coefficients &c, const Scale &scale)
+  {
+    return scale.force() * c.rolling_viscous;
+  }
+  /// What |g| can not exceed [force]
+  EEPA_FUNCTION static double bound(const Coefficients &c, double hysteretic)
+  {
+    return c.mu_r * hysteretic;
+  }
+
   EEPA_FUNCTION static Vec3 torque(const Coefficients &c, const Scale &scale,
                                    const Contact &contact, double hysteretic, double,
                                    double time_step, Vec3 &spring)
@@ -67,8 +90,8 @@ struct RollingSds {
         (contact.angular_velocity - contact.angular_velocity.dot(contact.normal) * contact.normal);
     spring = rotate_into_plane(spring, contact.normal) + time_step * velocity;
     const SliderForce roll =
-        slider_force(scale.stiffness() * c.kr, scale.inverse_size * c.inverse_kr,
-                     scale.force() * c.rolling_viscous, c.mu_r * hysteretic, velocity, spring);
+        slider_force(scale.stiffness() * c.kr, scale.inverse_size * c.inverse_kr, dashpot(c, scale),
+                     bound(c, hysteretic), velocity, spring);
     return radius * roll.force;
   }
 };
