@@ -22,8 +22,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 using namespace LAMMPS_NS;
@@ -216,6 +218,79 @@ void PairGranEepa::init_history()
   } else if (fix_history->get_dnum() != size) {
     error->all(FLERR, "{}: rolling sds can not be switched on or off after a run", style_name);
   }
+  check_partners();
+}
+
+namespace {
+/// What LAMMPS's history fix keeps between runs: the partners of each owned particle, by ID.
+struct Partners : FixNeighHistory {
+  static constexpr auto count = &Partners::npartner;
+  static constexpr auto ids = &Partners::partner;
+  static constexpr auto values = &Partners::valuepartner;
+};
+
+/// Of an ordered pair of IDs (the finaliser of splitmix64).
+std::uint64_t hash(tagint a, tagint b)
+{
+  std::uint64_t h =
+      static_cast<std::uint64_t>(a) * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(b);
+  h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
+  h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
+  return h ^ (h >> 31);
+}
+}    // namespace
+
+bool PairGranEepa::partners_are_mutual() const
+{
+  int *const count = fix_history->*Partners::count;
+  tagint **const ids = fix_history->*Partners::ids;
+  std::uint64_t mine = 0, all = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int m = 0; m < count[i]; m++)
+      mine += hash(atom->tag[i], ids[i][m]) - hash(ids[i][m], atom->tag[i]);
+  MPI_Allreduce(&mine, &all, 1, MPI_UINT64_T, MPI_SUM, world);
+  return all == 0;
+}
+
+void PairGranEepa::check_partners()
+{
+  // Between runs each of two partners has the other one's ID, unless particles were deleted, IDs
+  // given again or all of them renumbered. LAMMPS would hand a history to whoever has the ID.
+  if (partners_are_mutual()) return;
+
+  // forget those that have no contacts themselves: they are gone, or new ones with an old ID
+  int *const count = fix_history->*Partners::count;
+  tagint **const ids = fix_history->*Partners::ids;
+  double **const values = fix_history->*Partners::values;
+  std::vector<tagint> mine;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (count[i] > 0) mine.push_back(atom->tag[i]);
+  const int n = static_cast<int>(mine.size());
+  std::vector<int> sizes(comm->nprocs), starts(comm->nprocs, 0);
+  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, world);
+  std::partial_sum(sizes.begin(), sizes.end() - 1, starts.begin() + 1);
+  std::vector<tagint> known(starts.back() + sizes.back());
+  MPI_Allgatherv(mine.data(), n, MPI_LMP_TAGINT, known.data(), sizes.data(), starts.data(),
+                 MPI_LMP_TAGINT, world);
+  std::sort(known.begin(), known.end());
+  const int size = fix_history->get_dnum();
+  for (int i = 0; i < atom->nlocal; i++) {
+    int kept = 0;
+    for (int m = 0; m < count[i]; m++) {
+      if (!std::binary_search(known.begin(), known.end(), ids[i][m])) continue;
+      ids[i][kept] = ids[i][m];
+      std::copy_n(values[i] + static_cast<std::ptrdiff_t>(size) * m, size,
+                  values[i] + static_cast<std::ptrdiff_t>(size) * kept);
+      kept++;
+    }
+    count[i] = kept;
+  }
+  if (!partners_are_mutual())
+    error->all(
+        FLERR,
+        "{}: atom IDs were renumbered while there were contacts, whose history is kept by ID; "
+        "use delete_atoms with compress no, and no reset_atoms id",
+        style_name);
 }
 
 void PairGranEepa::init_radii()
@@ -410,14 +485,25 @@ void PairGranEepa::read_restart_settings(FILE *fp)
   restart_history_size = static_cast<int>(numbers.back());
 }
 
+void PairGranEepa::warn_of_data_file() const
+{
+  // LAMMPS calls write_data on rank 0 only
+  error->warning(FLERR,
+                 "{}: write_data writes the coefficients but not the history of contacts: they "
+                 "will start as new ones; use write_restart to go on with this run",
+                 style_name);
+}
+
 void PairGranEepa::write_data(FILE *fp)
 {
+  warn_of_data_file();
   for (int i = 1; i <= atom->ntypes; i++)
     fmt::print(fp, "{} {}\n", i, eepa::to_words(parameters[pair_index(i, i)]));
 }
 
 void PairGranEepa::write_data_all(FILE *fp)
 {
+  warn_of_data_file();
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++)
       fmt::print(fp, "{} {} {}\n", i, j, eepa::to_words(parameters[pair_index(i, j)]));

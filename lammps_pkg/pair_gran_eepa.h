@@ -153,6 +153,9 @@ class PairGranEepa : public Pair {
   void init_radii();
   int history_size() const;
   void warn(const eepa::Words &);
+  void warn_of_data_file() const;
+  void check_partners();
+  bool partners_are_mutual() const;
   int find_history(int i, int j, const double *&values, double &sign) const;
 
   ParticleArrays particle_arrays();

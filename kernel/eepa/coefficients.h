@@ -25,6 +25,7 @@ struct Coefficients {
   double mu_r, kr, inverse_kr, rolling_viscous;
   double exponent;                      ///< n
   double inverse_reference_diameter;    ///< 1/d_ref, or 0 when nothing scales
+  bool limit_damping;                   ///< as in LawSettings; read by the energy ledger only
 };
 
 /// B_n / sqrt(m* k1) for a coefficient of restitution e of the linear spring-dashpot.
@@ -65,6 +66,7 @@ EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
   c.kt = tangential_stiffness(p);
   c.inverse_kt = c.kt > 0.0 ? 1.0 / c.kt : 0.0;
   c.exponent = s.exponent;
+  c.limit_damping = s.limit_damping;
   c.inverse_reference_diameter = s.scaled ? 1.0 / s.reference_diameter : 0.0;
   if (s.law == Law::plateau) {
     c.plastic_fraction = p.k1 / p.k2;

@@ -32,6 +32,38 @@ struct StoredEnergy {
   EEPA_FUNCTION double total() const { return normal + tangential + rolling; }
 };
 
+/// Coefficients of the dashpots of a contact [mass/time]
+template <class Real> struct Dashpots {
+  Real root_mass_stiffness;    ///< sqrt(m* k), k the loading branch's tangent stiffness
+  Real normal, tangential;     ///< B_n and B_t
+};
+
+template <class NormalLaw, class Real>
+EEPA_FUNCTION Dashpots<Real> dashpots(const Coefficients &c, const ScaleOf<Real> &scale,
+                                      const Real &effective_mass, const Real &overlap)
+{
+  using std::sqrt;
+  Dashpots<Real> result;
+  Real stiffness = scale.stiffness() * c.k1;
+  if constexpr (!NormalLaw::Exponent::is_unit)
+    stiffness *= NormalLaw::Exponent::slope(overlap, c, scale);
+  result.root_mass_stiffness = sqrt(effective_mass * stiffness);
+  const Real normal_part = c.restitution_damping * result.root_mass_stiffness;
+  Real tangential_part = normal_part * c.tangential_ratio;
+  if constexpr (!NormalLaw::Exponent::is_unit)
+    tangential_part = c.restitution_damping * sqrt(effective_mass * scale.stiffness() * c.kt);
+  result.normal = normal_part + scale.force() * c.viscous_normal;
+  result.tangential = tangential_part + scale.force() * c.viscous_tangential;
+  return result;
+}
+
+/// What |f_t| can not exceed: it has f_hys, never the dashpot. [force]
+template <class Real>
+EEPA_FUNCTION Real friction_bound(const Coefficients &c, const NormalForceOf<Real> &normal)
+{
+  return larger<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, 0.0);
+}
+
 /// The law of one contact: normal, tangential, damping and rolling composed.
 /// \tparam NormalLaw  PlateauLaw, LinearLaw<UnitExponent> or LinearLaw<GeneralExponent>
 /// \tparam RollingLaw  RollingNone, RollingConstant or RollingSds
@@ -56,7 +88,6 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
                                                  HistoryOf<Real> &history)
   {
     using std::abs;
-    using std::sqrt;
     ResponseOf<Real> response;
     const Real none(0.0);
     const ScaleOf<Real> scale = contact_scale(c, contact.size);
@@ -66,40 +97,27 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
     response.branch = normal.branch;
     response.hysteretic_force = normal.force;
 
-    // dashpots; the stiffness of n != 1 is the loading branch's tangent
-    Real stiffness = scale.stiffness() * c.k1;
-    if constexpr (!NormalLaw::Exponent::is_unit)
-      stiffness *= NormalLaw::Exponent::slope(contact.overlap, c, scale);
-    const Real root_mass_stiffness = sqrt(contact.effective_mass * stiffness);
-    const Real normal_part = c.restitution_damping * root_mass_stiffness;
-    Real tangential_part = normal_part * c.tangential_ratio;
-    if constexpr (!NormalLaw::Exponent::is_unit)
-      tangential_part =
-          c.restitution_damping * sqrt(contact.effective_mass * scale.stiffness() * c.kt);
-    const Real viscous_normal = normal_part + scale.force() * c.viscous_normal;
-    const Real viscous_tangential = tangential_part + scale.force() * c.viscous_tangential;
-
+    const Dashpots<Real> viscous =
+        dashpots<NormalLaw>(c, scale, contact.effective_mass, contact.overlap);
     const Real normal_velocity = dot(contact.velocity, contact.normal);
-    response.normal_force = normal.force - viscous_normal * normal_velocity;
+    response.normal_force = normal.force - viscous.normal * normal_velocity;
     if (limit_damping)
       response.normal_force = larger(response.normal_force, smaller(normal.force, none));
 
-    // friction; the bound has f_hys, never the dashpot
-    response.friction_bound =
-        larger<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, none);
+    response.friction_bound = friction_bound(c, normal);
     const Vector3<Real> velocity = tangential_velocity(contact, normal_velocity);
     Vector3<Real> &spring = history.tangential_spring;
     spring = rotate_into_plane(spring, contact.normal) + Real(time_step) * velocity;
     const SliderForce<Real> friction =
         slider_force<Real>(scale.stiffness() * c.kt, scale.inverse_size * c.inverse_kt,
-                           viscous_tangential, response.friction_bound, velocity, spring);
+                           viscous.tangential, response.friction_bound, velocity, spring);
     response.tangential_force = friction.force;
     response.sliding = friction.sliding;
 
     if constexpr (has_rolling)
       response.rolling_torque =
-          RollingLaw::torque(c, scale, contact, Real(abs(normal.force)), root_mass_stiffness,
-                             time_step, history.rolling_spring);
+          RollingLaw::torque(c, scale, contact, Real(abs(normal.force)),
+                             viscous.root_mass_stiffness, time_step, history.rolling_spring);
     return response;
   }
 

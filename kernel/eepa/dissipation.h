@@ -31,16 +31,95 @@ struct Dissipation {
 
 // Velocity Verlet turns the work (f_n-1 + f_n)/2 . v_n-1/2 dt into kinetic energy, and a force
 // call sees x_n and v_n-1/2. Springs are therefore booked by their state, which is that
-// trapezoid. For a dashpot f = -B v the trapezoid summed over a contact's life is the sum of
-// B v^2 dt, less B v^2 dt/4 at its first step, plus B v^2 dt/4 after its last: booked so, every
-// term is >= 0 and nothing of the step before needs to be remembered.
+// trapezoid. The force of a dashpot in the step before, f' = min(B' v', L'), hangs on a velocity
+// that nobody remembers; its coefficient B' and the bound L' that cut it do follow from the
+// state. So what is booked is, with the present v in the place of v',
+//
+//   dt [ (f + f')/2 v + (f^2/B - f'^2/B')/4 ],   f' = min(B' v, L').
+//
+// The second part is a function of the state that is 0 before a contact and after it. The terms
+// in f' are greatest, and so flat, at f' = B' v: v in the place of v' changes them by at most
+// B' (v - v')^2/4 dt, which is of second order in dt. Neither is ever negative, but where a
+// slider lets go of a spring: see dashpot_now().
 
 namespace detail {
+  /// What a step books for a dashpot's present force.
+  /// \param force, speed  |f| and |v|
+  /// \param power  what f takes out: |f| |v|, but less where a slider has just let go of a spring
+  ///        and hands its force over; < 0 where that drives. The step after will take it for
+  ///        |f| |v|, so the difference is booked here.
+  EEPA_FUNCTION double dashpot_now(double viscous, double force, double speed, double power)
+  {
+    if (!(viscous > 0.0)) return 0.0;
+    return power + (0.25 * force / viscous - 0.5 * speed) * force;
+  }
+  /// What it books for the force of the step before, which was at most `bound`.
+  EEPA_FUNCTION double dashpot_before(double viscous, double bound, double speed)
+  {
+    if (!(viscous > 0.0)) return 0.0;
+    const double force = viscous * speed < bound ? viscous * speed : bound;
+    return (0.5 * speed - 0.25 * force / viscous) * force;
+  }
+
   /// Loss of a slider over one step: the spring's trapezoid work less what it stores of it.
   EEPA_FUNCTION double slip_loss(double stiffness, const Vec3 &before, const Vec3 &after,
                                  const Vec3 &displacement)
   {
     return 0.5 * stiffness * (before + after).dot(before + displacement - after);
+  }
+
+  /// Loss of a spring that is let go in a step: what it stored and its trapezoid work. That takes
+  /// more back only of a spring as short as the step, which counts as nothing.
+  EEPA_FUNCTION double release_loss(double stiffness, const Vec3 &spring, const Vec3 &displacement)
+  {
+    const double loss = 0.5 * stiffness * spring.dot(spring + displacement);
+    return loss > 0.0 ? loss : 0.0;
+  }
+
+  /// A spring that the slider left empty: its dashpot alone was at the bound. Otherwise the
+  /// spring may have held the dashpot back, and nothing cuts that.
+  EEPA_FUNCTION double dashpot_bound(const Vec3 &spring, double bound)
+  {
+    return spring.squaredNorm() > 0.0 ? HUGE_VAL : bound;
+  }
+
+  /// What the dashpots' forces of the step before do in this one, over dt.
+  /// \param last  state after the step before
+  template <class ContactLaw>
+  EEPA_FUNCTION void book_step_before(const Coefficients &c, const Scale &scale,
+                                      const Contact &contact, double time_step, const History &last,
+                                      Dissipation &lost)
+  {
+    using Normal = typename ContactLaw::Normal;
+    const double normal_velocity = dot(contact.velocity, contact.normal);
+    double overlap = contact.overlap + normal_velocity * time_step;
+    if (overlap < 0.0) overlap = 0.0;
+    const NormalForce normal = Normal::force(c, scale, overlap, last.max_overlap);
+    const Dashpots<double> viscous = dashpots<Normal>(c, scale, contact.effective_mass, overlap);
+
+    const bool limited = c.limit_damping && normal_velocity > 0.0;
+    const double tension_free = normal.force > 0.0 ? normal.force : 0.0;
+    lost.normal_dashpot += time_step *
+        dashpot_before(viscous.normal, limited ? tension_free : HUGE_VAL,
+                       std::fabs(normal_velocity));
+    lost.tangential_dashpot += time_step *
+        dashpot_before(viscous.tangential,
+                       dashpot_bound(last.tangential_spring, friction_bound(c, normal)),
+                       tangential_velocity(contact, normal_velocity).norm());
+    if constexpr (ContactLaw::has_rolling) {
+      using Rolling = typename ContactLaw::Rolling;
+      const double hysteretic = std::fabs(normal.force), radius = contact.effective_radius;
+      const double rate = rolling_velocity(contact).norm();
+      if constexpr (Rolling::has_spring)
+        lost.rolling += time_step *
+            dashpot_before(Rolling::dashpot(c, scale),
+                           dashpot_bound(last.rolling_spring, Rolling::bound(c, hysteretic)),
+                           radius * rate);
+      else
+        lost.rolling += time_step *
+            dashpot_before(Rolling::dashpot(radius, viscous.root_mass_stiffness),
+                           Rolling::bound(c, radius, hysteretic), rate);
+    }
   }
 }    // namespace detail
 
@@ -55,7 +134,6 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
 {
   Dissipation lost;
   const Scale scale = contact_scale(c, contact.size);
-  const double share = first ? 0.75 : 1.0;
   const double normal_velocity = dot(contact.velocity, contact.normal);
   // a contact that starts with an overlap (a packing's first step) was not loaded up to it
   double loaded = before.max_overlap;
@@ -65,41 +143,52 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
     if (loaded > contact.overlap) loaded = contact.overlap;
   }
   lost.hysteresis = ContactLaw::Normal::loss(c, scale, loaded, after.max_overlap);
+  if (!first) detail::book_step_before<ContactLaw>(c, scale, contact, time_step, before, lost);
 
-  lost.normal_dashpot =
-      -share * time_step * normal_velocity * (response.normal_force - response.hysteretic_force);
+  const Dashpots<double> viscous =
+      dashpots<typename ContactLaw::Normal>(c, scale, contact.effective_mass, contact.overlap);
+  const double damping = std::fabs(response.normal_force - response.hysteretic_force);
+  const double speed = std::fabs(normal_velocity);
+  lost.normal_dashpot +=
+      time_step * detail::dashpot_now(viscous.normal, damping, speed, damping * speed);
 
   const double stiffness = scale.stiffness() * c.kt;
   const Vec3 velocity = tangential_velocity(contact, normal_velocity);
   const Vec3 dashpot = response.tangential_force + stiffness * after.tangential_spring;
-  lost.tangential_dashpot = -share * time_step * dashpot.dot(velocity);
+  const double taken = time_step *
+      detail::dashpot_now(viscous.tangential, dashpot.norm(), velocity.norm(),
+                          -dashpot.dot(velocity));
   lost.sliding =
       detail::slip_loss(stiffness, rotate_into_plane(before.tangential_spring, contact.normal),
                         after.tangential_spring, time_step * velocity);
-  if (lost.tangential_dashpot < 0.0) {
-    // the slider let go of a spring that outweighed the dashpot: its part of the slip
-    lost.sliding += lost.tangential_dashpot;
-    lost.tangential_dashpot = 0.0;
-  }
+  // a spring that was let go and drives: its part of the slip
+  (taken < 0.0 ? lost.sliding : lost.tangential_dashpot) += taken;
 
   if constexpr (ContactLaw::has_rolling) {
+    using Rolling = typename ContactLaw::Rolling;
     // torque . (omega_i - omega_j) is the power of either model
-    const double work = time_step * response.rolling_torque.dot(contact.angular_velocity);
-    lost.rolling = -share * work;
-    if constexpr (ContactLaw::Rolling::has_spring) {
+    const Vec3 rate = rolling_velocity(contact);
+    const double radius = contact.effective_radius;
+    if constexpr (Rolling::has_spring) {
       const double kr = scale.stiffness() * c.kr;
-      const Vec3 rolled = contact.effective_radius *
-          (contact.angular_velocity -
-           contact.angular_velocity.dot(contact.normal) * contact.normal);
-      const Vec3 earlier = rotate_into_plane(before.rolling_spring, contact.normal);
-      lost.rolling = detail::slip_loss(kr, earlier, after.rolling_spring, time_step * rolled) -
-          share * (work + kr * time_step * after.rolling_spring.dot(rolled));
+      const Vec3 rolled = radius * rate;
+      const Vec3 viscous_part = response.rolling_torque / radius + kr * after.rolling_spring;
+      lost.rolling += time_step *
+              detail::dashpot_now(Rolling::dashpot(c, scale), viscous_part.norm(), rolled.norm(),
+                                  -viscous_part.dot(rolled)) +
+          detail::slip_loss(kr, rotate_into_plane(before.rolling_spring, contact.normal),
+                            after.rolling_spring, time_step * rolled);
+    } else {
+      const double torque = response.rolling_torque.norm(), spin = rate.norm();
+      lost.rolling += time_step *
+          detail::dashpot_now(Rolling::dashpot(radius, viscous.root_mass_stiffness), torque, spin,
+                              torque * spin);
     }
   }
   return lost;
 }
 
-/// Dissipation of a contact that has opened: what it still stored, and the dashpot's last part.
+/// Dissipation of a contact that has opened: what it still stored, and the last part of dashpots.
 /// \param contact  as it is now, overlap <= 0
 /// \param last  its state after its last step
 template <class ContactLaw>
@@ -109,17 +198,13 @@ EEPA_FUNCTION Dissipation dissipation_of_opening(const Coefficients &c, const Co
   Dissipation lost;
   const Scale scale = contact_scale(c, contact.size);
   lost.hysteresis = ContactLaw::Normal::opening_loss(c, scale, last.max_overlap);
-  lost.sliding = spring_energy(scale.stiffness() * c.kt, last.tangential_spring);
+  const Vec3 slip = time_step * tangential_velocity(contact, dot(contact.velocity, contact.normal));
+  lost.sliding = detail::release_loss(scale.stiffness() * c.kt, last.tangential_spring, slip);
   if constexpr (ContactLaw::Rolling::has_spring)
-    lost.rolling = spring_energy(scale.stiffness() * c.kr, last.rolling_spring);
-  if constexpr (ContactLaw::Normal::Exponent::is_unit) {
-    // for n != 1 the dashpot fades out with the overlap
-    const double normal_velocity = dot(contact.velocity, contact.normal);
-    const double viscous =
-        c.restitution_damping * std::sqrt(contact.effective_mass * scale.stiffness() * c.k1) +
-        scale.force() * c.viscous_normal;
-    lost.normal_dashpot = 0.25 * viscous * normal_velocity * normal_velocity * time_step;
-  }
+    lost.rolling =
+        detail::release_loss(scale.stiffness() * c.kr, last.rolling_spring,
+                             time_step * contact.effective_radius * rolling_velocity(contact));
+  detail::book_step_before<ContactLaw>(c, scale, contact, time_step, last, lost);
   return lost;
 }
 

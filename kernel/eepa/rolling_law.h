@@ -37,6 +37,20 @@ struct RollingConstant {
   static constexpr RollingModel model = RollingModel::constant;
   static constexpr bool has_spring = false;
 
+  /// c of the dashpot that caps the torque [force length time]
+  template <class Real>
+  EEPA_FUNCTION static Real dashpot(const Real &effective_radius, const Real &root_mass_stiffness)
+  {
+    return 0.4 * effective_radius * effective_radius * root_mass_stiffness;
+  }
+  /// The torque of fast rolling [force length]
+  template <class Real>
+  EEPA_FUNCTION static Real bound(const Coefficients &c, const Real &effective_radius,
+                                  const Real &hysteretic)
+  {
+    return c.mu_r * hysteretic * effective_radius;
+  }
+
   /// \param hysteretic  |f_hys| [force]
   /// \param root_mass_stiffness  sqrt(m* k) [mass/time]
   template <class Real>
@@ -47,8 +61,8 @@ struct RollingConstant {
     using std::sqrt;
     const Real &radius = contact.effective_radius;
     const Vector3<Real> rolling = rolling_velocity(contact);
-    const Real limit = c.mu_r * hysteretic * radius;
-    const Real cap = 0.4 * radius * radius * root_mass_stiffness;
+    const Real limit = bound(c, radius, hysteretic);
+    const Real cap = dashpot(radius, root_mass_stiffness);
     const Real rate_squared = squared_length(rolling);
     const auto limited = cap * cap * rate_squared > limit * limit;
     Real viscous = cap;
@@ -69,6 +83,19 @@ struct RollingSds {
   static constexpr RollingModel model = RollingModel::sds;
   static constexpr bool has_spring = true;
 
+  /// B of the pseudo-force, gr of this contact [mass/time]
+  template <class Real>
+  EEPA_FUNCTION static Real dashpot(const Coefficients &c, const ScaleOf<Real> &scale)
+  {
+    return scale.force() * c.rolling_viscous;
+  }
+  /// What |g| can not exceed [force]
+  template <class Real>
+  EEPA_FUNCTION static Real bound(const Coefficients &c, const Real &hysteretic)
+  {
+    return c.mu_r * hysteretic;
+  }
+
   template <class Real>
   EEPA_FUNCTION static Vector3<Real> torque(const Coefficients &c, const ScaleOf<Real> &scale,
                                             const ContactOf<Real> &contact, const Real &hysteretic,
@@ -77,9 +104,9 @@ struct RollingSds {
     const Real &radius = contact.effective_radius;
     const Vector3<Real> velocity = radius * rolling_velocity(contact);
     spring = rotate_into_plane(spring, contact.normal) + Real(time_step) * velocity;
-    const SliderForce<Real> roll = slider_force<Real>(
-        scale.stiffness() * c.kr, scale.inverse_size * c.inverse_kr,
-        scale.force() * c.rolling_viscous, c.mu_r * hysteretic, velocity, spring);
+    const SliderForce<Real> roll =
+        slider_force<Real>(scale.stiffness() * c.kr, scale.inverse_size * c.inverse_kr,
+                           dashpot(c, scale), bound(c, hysteretic), velocity, spring);
     return radius * roll.force;
   }
 };

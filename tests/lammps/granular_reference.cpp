@@ -128,4 +128,128 @@ TEST(GranularReference, FrictionlessPackingMovesAlike)
   EXPECT_LT(difference(end[0], end[1]), 1e-9);
 }
 
+/* ---------------------------------------------------------------------- prescribed motion */
+
+// Two spheres of radius 0.5 and 0.3 that overlap by 0.01 and whose motion is given, so that forces
+// can be compared step by step, without the arms: LAMMPS winds with R omega, this project with
+// a omega, a = R - delta/2, and both turn with a.
+class PrescribedMotion : public testing::Test {
+ protected:
+  static constexpr double overlap = 0.01, radii[2] = {0.5, 0.3};
+  Simulation reference, own;
+  double worst = 0.0, largest = 0.0;
+  int sticking = 0, slipping = 0;
+
+  void open(const std::string &granular, const std::string &eepa)
+  {
+    for (auto *simulation : {&reference, &own}) {
+      simulation->open_box(3.0);
+      Sphere one, other;
+      other.x = (radii[0] + radii[1] - overlap) * Vec3(0.6, 0.0, 0.8);
+      other.radius = radii[1];
+      simulation->create({one, other});
+      (*simulation)(simulation == &own ? "pair_style gran/eepa linear\npair_coeff * * " + eepa
+                                       : "pair_style granular\npair_coeff * * " + granular);
+      (*simulation)("timestep 1e-3");
+    }
+    own.watch_contacts();
+  }
+  /// Spins that move the surfaces alike.
+  void spin(const Vec3 &first, const Vec3 &second)
+  {
+    reference.set_velocity(1, Vec3::Zero(), first);
+    reference.set_velocity(2, Vec3::Zero(), second);
+    own.set_velocity(1, Vec3::Zero(), radii[0] / (radii[0] - 0.5 * overlap) * first);
+    own.set_velocity(2, Vec3::Zero(), radii[1] / (radii[1] - 0.5 * overlap) * second);
+  }
+  void compare(int steps)
+  {
+    reference("run " + std::to_string(steps) + " pre no post no");
+    own("run " + std::to_string(steps) + " pre no post no");
+    const auto a = reference.particles(), b = own.particles();
+    for (std::size_t k = 0; k < 2; k++) {
+      largest = std::max({largest, a[k].f.norm(), a[k].torque.norm()});
+      worst = std::max({worst, (a[k].f - b[k].f).norm(), (a[k].torque - b[k].torque).norm()});
+    }
+  }
+  void count_slip() { (own.contacts().at(0).slip() != 0.0 ? slipping : sticking)++; }
+  void expect_same(const char *what)
+  {
+    EXPECT_GT(largest, 1.0);
+    EXPECT_LT(worst, 1e-12 * largest);
+    std::printf("%s: %.1e of the largest force\n", what, worst / largest);
+  }
+};
+
+// One sphere is led around the other on an ellipse: sticking, sliding, reversals, a turning normal,
+// an overlap that comes and goes.
+TEST_F(PrescribedMotion, SlidingByTranslation)
+{
+  open("hooke 1e4 0 damping velocity tangential linear_history 3e3 0 0.4",
+       "1e4 1e4 0 0 0.4 kt 3e3 viscous 0 0");
+  for (auto *simulation : {&reference, &own}) {
+    (*simulation)("variable x equal 0\nvariable y equal 0.05*sin(20*step*dt)\nvariable vy equal "
+                  "cos(20*step*dt)\n"
+                  "variable z equal 0.002*(1-cos(30*step*dt))\n"
+                  "variable vz equal 0.06*sin(30*step*dt)\ngroup led id 2\n"
+                  "fix lead led move variable v_x v_y v_z v_x v_vy v_vz");
+    simulation->run(0);
+  }
+  for (int k = 0; k < 100; k++) {
+    compare(7);
+    count_slip();
+  }
+  EXPECT_GT(sticking, 10);
+  EXPECT_GT(slipping, 10);
+  expect_same("sliding by translation");
+}
+
+TEST_F(PrescribedMotion, SlidingBySpinWithDashpots)
+{
+  open("hooke 1e4 20 damping velocity tangential linear_history 3e3 0.5 0.4",
+       "1e4 1e4 0 0 0.4 kt 3e3 viscous 20 10");
+  const Vec3 spins[] = {Vec3(0.2, 1.5, -0.5), Vec3(-0.4, -2.5, 0.2), Vec3(2.0, 0.3, 0.4),
+                        Vec3(0.0, 0.1, 0.0)};
+  for (const Vec3 &omega : spins) {
+    spin(omega, -0.5 * omega + Vec3(0.1, 0.2, 0.3));
+    reference.run(0);
+    own.run(0);
+    for (int k = 0; k < 20; k++) {
+      compare(2);
+      count_slip();
+    }
+  }
+  EXPECT_GT(sticking, 10);
+  EXPECT_GT(slipping, 10);
+  expect_same("sliding by spin");
+}
+
+// Rolling is wound by R* (omega_i - omega_j) in both: no arm, and the same spins.
+TEST_F(PrescribedMotion, RollingSds)
+{
+  open("hooke 1e4 20 damping velocity tangential linear_history 3e3 0 0 rolling sds 2e3 5 0.1",
+       "1e4 1e4 0 0 0 kt 3e3 viscous 20 0 rolling sds 2e3 5 0.1");
+  double least = 1e9, most = 0.0;
+  const Vec3 spins[] = {Vec3(0.5, 2.0, -0.7), Vec3(-1.5, -2.0, 0.2), Vec3(2.0, 0.3, 1.0),
+                        Vec3(0.0, 0.1, 0.1)};
+  for (const Vec3 &omega : spins) {
+    for (auto *simulation : {&reference, &own}) {
+      simulation->set_velocity(1, Vec3::Zero(), omega);
+      simulation->set_velocity(2, Vec3::Zero(), Vec3(0.3, -0.2, 0.4) - 0.6 * omega);
+      simulation->run(0);
+    }
+    for (int k = 0; k < 30; k++) {
+      compare(1);
+      const double torque = own.particle(1).torque.norm();
+      least = std::min(least, torque);
+      most = std::max(most, torque);
+    }
+  }
+  // mu_r N R*: reached, and not always
+  const double bound = 0.1 * 1e4 * overlap * 0.15 / 0.8;
+  EXPECT_NEAR(most, bound, 1e-9);
+  EXPECT_LT(least, 0.5 * bound);
+  expect_same("rolling sds");
+}
+
 }    // namespace

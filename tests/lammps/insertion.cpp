@@ -112,6 +112,65 @@ TEST_P(ParallelReplacement, GivesVirginContactsAndKeepsTheOthers)
 }
 INSTANTIATE_TEST_SUITE_P(Newton, ParallelReplacement, testing::Values("on", "off"));
 
+// An ID that is given again does not bring back the history of the one that had it.
+TEST_P(ParallelReplacement, OfTheLastIdGivesAVirginContact)
+{
+  Simulation simulation;
+  open(simulation, GetParam());
+  simulation.run(150);
+  simulation.run(0);
+  const Vec3 x = simulation.particle(125).x;
+  int worn = 0;
+  for (const auto &[ids, c] : by_pair(simulation))
+    worn += ids.second == 125 && c.max_overlap() > 1.01 * c.overlap();
+  EXPECT_GT(worn, 0);
+  simulation("group gone id 125\ndelete_atoms group gone compress no\ncreate_atoms 1 single " +
+             exact(x.x()) + " " + exact(x.y()) + " " + exact(x.z()) +
+             " units box\ngroup new id 125\nset group new diameter 1\nset group new density " +
+             exact(unit_density));
+  simulation.run(0);
+  int virgin = 0, kept = 0;
+  for (const auto &[ids, c] : by_pair(simulation)) {
+    if (ids.second == 125) {
+      EXPECT_EQ(c.max_overlap(), c.overlap());
+      EXPECT_EQ(c.p[12], 0.0);
+      virgin++;
+    } else {
+      kept += c.max_overlap() > 1.01 * c.overlap();
+    }
+  }
+  EXPECT_GT(virgin, 0);
+  EXPECT_GT(kept, 50);
+}
+
+// LAMMPS renumbers the rest by default, and keeps histories by ID: they would go to anybody.
+TEST_P(ParallelReplacement, RenumberedIdsAreRefused)
+{
+  constexpr const char *message = "pair_style gran/eepa: atom IDs were renumbered while there were "
+                                  "contacts.*use delete_atoms with compress no";
+  for (const char *renumber : {"group gone id 7\ndelete_atoms group gone",
+                               "reset_atoms id sort yes\ndelete_atoms group all compress yes",
+                               "reset_atoms id sort yes"}) {
+    Simulation simulation;
+    open(simulation, GetParam());
+    simulation.run(150);
+    simulation(renumber);
+    if (simulation.particles().empty())
+      EXPECT_EQ(error_of(simulation, "run 0"), "");    // nobody has a history
+    else
+      EXPECT_TRUE(refuses(simulation, "run 0", message)) << renumber;
+  }
+  const ScratchFile file(".restart");
+  Simulation simulation, restarted;
+  open(simulation, GetParam());
+  simulation.run(150);
+  simulation("write_restart " + file.name());
+  restarted("read_restart " + file.name() +
+            "\ncomm_modify vel yes\nneighbor 0.1 bin\nfix integrate all nve/sphere\n"
+            "group gone id 7\ndelete_atoms group gone");
+  EXPECT_TRUE(refuses(restarted, "run 0", message));
+}
+
 // What goes takes its contacts with it: those that stay move as if their neighbours had been taken
 // out by hand between two runs.
 class ParallelInsertion : public testing::TestWithParam<const char *> {

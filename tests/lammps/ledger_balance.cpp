@@ -41,25 +41,29 @@ double elastic(const std::vector<double> &e)
 struct Balance {
   const char *name, *style, *coefficients;
   double stiffness;    ///< that sets the time step's bound
+  int side;            ///< particles along an edge
 };
 
 struct Course {
   double drift = 0.0;       ///< the largest change of the sum that should be constant
+  double remains = 0.0;     ///< that change at the end
   double put_in = 0.0;      ///< kinetic energy of the start and all positive work of walls
   double decrease = 0.0;    ///< the largest of any dissipation term within 10 steps
   std::vector<double> end;
 };
 
-/// 512 particles are compressed by 4% and let go: the top goes down and up again as a cosine,
+/// side^3 particles are compressed by 4% and let go: the top goes down and up again as a cosine,
 /// the other walls drag, and there is gravity.
-Course compress(const Balance &law, double fraction_of_bound)
+/// \param speed  of the start, with gaps between all particles; 0: at rest, touching
+Course compress(const Balance &law, int side, double speed, double fraction_of_bound)
 {
-  constexpr double period = 0.25, gravity = 10.0;
+  constexpr double gravity = 10.0;
+  const double period = 0.03125 * side;
   Packing packing;
-  packing.side = 8;
-  packing.spacing = 1.0;
+  packing.side = side;
+  packing.spacing = speed > 0.0 ? 1.03 : 1.0;    // see LedgerStart
   packing.jitter = 0.01;
-  packing.speed = 0.0;    // see LedgerStart
+  packing.speed = speed;
   const std::string wall = exact(packing.half());
   Simulation simulation;
   simulation.open_box(packing.half() + 0.5, 1, "f f f");
@@ -77,7 +81,7 @@ Course compress(const Balance &law, double fraction_of_bound)
   fix("sides", "xplane -" + wall + " " + wall + " velocity 0 0.5 0");
   fix("ends", "yplane -" + wall + " " + wall + " shear x 1");
   fix("floor", "zplane -" + wall + " NULL");
-  fix("top", "zplane NULL " + wall + " wiggle z -0.16 " + exact(period));
+  fix("top", "zplane NULL " + wall + " wiggle z " + exact(-0.02 * side) + " " + exact(period));
   simulation("compute ledger all gran/eepa/energy");
   simulation.run(0);
 
@@ -98,7 +102,8 @@ Course compress(const Balance &law, double fraction_of_bound)
       start = sum;
       course.put_in = kinetic;
     }
-    course.drift = std::max(course.drift, std::fabs(sum - start));
+    course.remains = std::fabs(sum - start);
+    course.drift = std::max(course.drift, course.remains);
     course.put_in += std::max(0.0, course.end[WALL_WORK] - work);
     work = course.end[WALL_WORK];
     for (int k = HYSTERESIS; k <= ROLLING; k++)
@@ -108,36 +113,58 @@ Course compress(const Balance &law, double fraction_of_bound)
   return course;
 }
 
-class CompressedPacking : public testing::TestWithParam<Balance> {};
+class CompressedPacking : public testing::TestWithParam<Balance> {
+ protected:
+  /// At half the bound of the contract and at a quarter of it.
+  Course half, quarter;
 
-// Half the bound of the contract; at a quarter the drift must fall at least linearly, with a
-// margin for the noise of two different chaotic motions.
+  void compress_twice(int side, double speed)
+  {
+    const Balance &law = GetParam();
+    half = compress(law, side, speed, 0.5);
+    quarter = compress(law, side, speed, 0.25);
+    for (const auto *course : {&half, &quarter}) {
+      EXPECT_GT(course->put_in, side * side * side);
+      // noise of summing: millions of terms, 1e-16 of some thousand each
+      EXPECT_LT(course->decrease, 1e-9);
+      for (int k = HYSTERESIS; k <= ROLLING; k++)
+        EXPECT_GT(course->end[k], 1e-4 * course->put_in) << k;    // each channel takes part
+    }
+    const double percent = 100.0 / half.put_in;
+    std::printf("%s, %d particles: drift %.3f%% and %.3f%% of %.4g put in, at the end %.3f%% and "
+                "%.3f%%, decrease %.1e\n",
+                law.name, side * side * side, percent * half.drift, percent * quarter.drift,
+                half.put_in, percent * half.remains, percent * quarter.remains,
+                std::max(half.decrease, quarter.decrease));
+  }
+};
+
+// At a quarter the drift must fall at least linearly; the margin is for two different chaotic
+// motions.
 TEST_P(CompressedPacking, KeepsTheSumOfAllEnergies)
 {
-  const Course half = compress(GetParam(), 0.5), quarter = compress(GetParam(), 0.25);
-  for (const auto *course : {&half, &quarter}) {
-    EXPECT_GT(course->put_in, 500.0);
-    // noise of summing: hundreds of thousands of terms, 1e-16 of some hundred each
-    EXPECT_LT(course->decrease, 1e-9);
-    for (int k = HYSTERESIS; k <= ROLLING; k++) {
-      if (k == ROLLING && std::string(GetParam().coefficients).find("rolling") == std::string::npos)
-        continue;
-      EXPECT_GT(course->end[k], 1e-4 * course->put_in) << k;    // each channel takes part
-    }
-  }
+  compress_twice(GetParam().side, 0.0);
   EXPECT_LT(half.drift, 1e-3 * half.put_in);
-  EXPECT_LT(quarter.drift, 0.6 * half.drift + 2e-5 * half.put_in);
-  RecordProperty("drift_half", exact(half.drift / half.put_in));
-  std::printf("%s: drift %.2e and %.2e of %.4g put in, decrease %.1e\n", GetParam().name,
-              half.drift / half.put_in, quarter.drift / quarter.put_in, half.put_in,
-              std::max(half.decrease, quarter.decrease));
+  EXPECT_LT(quarter.drift, 0.5 * half.drift + 2e-5 * half.put_in);
+}
+
+// All particles hit their neighbours at once. While contacts last their dashpots are booked ahead,
+// to first order (see dissipation.h); what remains at the end is of second order.
+TEST_P(CompressedPacking, KeepsItThroughAViolentStart)
+{
+  compress_twice(8, 5.0);
+  EXPECT_LT(half.drift, 3e-3 * half.put_in);
+  EXPECT_LT(quarter.drift, 0.6 * half.drift);
+  EXPECT_LT(half.remains, 1e-3 * half.put_in);
+  EXPECT_LT(quarter.remains, 0.4 * half.remains);
 }
 const Balance balances[] = {
-    {"linear_sds", "linear", "1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling sds 2e3 1 0.1", 2e4},
-    {"plateau_constant", "plateau", "1e4 2e4 5e3 0 0.3 restitution 0.7 rolling constant 0.05", 2e4},
+    {"linear_sds", "linear", "1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling sds 2e3 1 0.1", 2e4, 16},
+    {"plateau_constant", "plateau", "1e4 2e4 5e3 0 0.3 restitution 0.7 rolling constant 0.05", 2e4,
+     16},
     // its time step's stiffness is the tangent at an overlap of 5% of d
     {"exponent", "linear exponent 1.5",
-     "1e5 2e5 5e4 0 0.3 kt 3e3 restitution 0.7 rolling sds 2e3 1 0.1", 6.7e4},
+     "1e5 2e5 5e4 0 0.3 kt 3e3 restitution 0.7 rolling sds 2e3 1 0.1", 6.7e4, 13},
 };
 INSTANTIATE_TEST_SUITE_P(Laws, CompressedPacking, testing::ValuesIn(balances),
                          [](const auto &info) {
@@ -231,16 +258,13 @@ double missed(const Impact &impact, double time_step)
 
 class LedgerImpact : public testing::TestWithParam<Impact> {};
 
-// At half the bound and at a quarter. What a dashpot of the step before did is not remembered; that
-// cancels over an impact (see dissipation.h), but only to first order where the slider cuts the
-// tangential dashpot, where for n != 1 the normal one fades in, and for the constant rolling
-// torque: 1.1e-3, 2.2e-3 and 2.7e-3.
+// At half the bound and at a quarter: of second order, but for the scatter of 40 starts.
 TEST_P(LedgerImpact, MissesLittleAndLessWithTheStep)
 {
   const double half = missed(GetParam(), 7e-4), quarter = missed(GetParam(), 3.5e-4);
   std::printf("%s: missed %.2e and %.2e of the kinetic energy\n", GetParam().name, half, quarter);
   EXPECT_LT(std::fabs(half), GetParam().most);
-  EXPECT_LT(std::fabs(quarter), 0.65 * std::fabs(half) + 3e-5);
+  EXPECT_LT(std::fabs(quarter), 0.35 * std::fabs(half) + 5e-5);
 }
 const Impact impacts[] = {
     {"elastic", "linear", "1e4 1e4 0 0 0", Vec3(2, 0, 0), 0.0, 5e-4},
@@ -252,13 +276,13 @@ const Impact impacts[] = {
     {"limit_damping", "linear limit_damping yes", "1e4 2e4 0 0 0 viscous 16 0", Vec3(2, 0, 0), 0.0,
      5e-4},
     {"exponent_dashpot", "linear exponent 1.5", "1e5 2e5 0 0 0 kt 0 restitution 0.7", Vec3(2, 0, 0),
-     0.0, 3e-3},
+     0.0, 5e-4},
     {"sliding", "linear", "1e4 2e4 0 0 0.3", Vec3(2, 2, 0), 0.0, 5e-4},
-    {"tangential_dashpot", "linear", "1e4 2e4 0 0 1e9 viscous 0 8", Vec3(2, 2, 0), 0.0, 5e-4},
+    {"tangential_dashpot", "linear", "1e4 1e4 0 0 1e9 viscous 0 8", Vec3(2, 2, 0), 0.0, 5e-4},
     {"sliding_tangential_dashpot", "linear", "1e4 2e4 0 0 0.3 viscous 0 8", Vec3(2, 2, 0), 0.0,
-     2e-3},
+     5e-4},
     {"rolling_constant", "linear", "1e4 2e4 0 0 0.3 rolling constant 0.1", Vec3(2, 2, 0), -0.5,
-     4e-3},
+     5e-4},
     {"rolling_sds", "linear", "1e4 2e4 0 0 0.3 rolling sds 2e3 2 0.1", Vec3(2, 2, 0), -0.5, 5e-4},
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, LedgerImpact, testing::ValuesIn(impacts), [](const auto &info) {

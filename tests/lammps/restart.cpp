@@ -299,4 +299,23 @@ TEST(DataFile, KeepsThePairCoefficients)
   }
 }
 
+TEST(DataFile, SaysThatItHasNoHistory)
+{
+  for (const char *which : {"ii", "ij"}) {
+    const ScratchFile file(".data"), log(".log");
+    Simulation simulation(MPI_COMM_WORLD, log.name());
+    simulation.open_box(3.0, 2);
+    simulation.create({{Vec3(0, 0, 0)}, {Vec3(0.99, 0, 0)}});
+    simulation("pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 0 0.3\n" +
+               std::string(integrate) + "\nrun 1 post no\nwrite_data " + file.name() + " pair " +
+               which + "\nlog none");
+    const std::string text = log.text(),
+                      warning = "write_data writes the coefficients but not the "
+                                "history of contacts";
+    const auto at = text.find(warning);
+    EXPECT_NE(at, std::string::npos) << text;
+    EXPECT_EQ(text.find(warning, at + 1), std::string::npos);    // once
+  }
+}
+
 }    // namespace
