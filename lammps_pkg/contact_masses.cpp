@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #include "contact_masses.h"
 
-#include "atom.h"
 #include "error.h"
 #include "fix.h"
 #include "modify.h"
-
-#include <limits>
 
 using namespace LAMMPS_NS;
 
@@ -43,13 +40,8 @@ const double *ContactMasses::masses()
   if (!fix_rigid_ && !freeze_groupbit_) return atom->rmass;
 
   const int nall = atom->nlocal + atom->nghost;
-  const bool bodies = fix_rigid_ && !body_mass_.empty();    // not before the first force call
   mass_.resize(nall);
-  for (int i = 0; i < nall; i++) {
-    mass_[i] = atom->rmass[i];
-    if (bodies && body_mass_[i] > 0.0) mass_[i] = body_mass_[i];
-    if (atom->mask[i] & freeze_groupbit_) mass_[i] = std::numeric_limits<double>::infinity();
-  }
+  for (int i = 0; i < nall; i++) mass_[i] = mass(i);
   return mass_.data();
 }
 
