@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #include "contact_masses.h"
 
-#include "atom.h"
 #include "error.h"
 #include "fix.h"
 #include "modify.h"
 #include "neighbor.h"
-
-#include <limits>
 
 using namespace LAMMPS_NS;
 
@@ -46,23 +43,18 @@ const double *ContactMasses::masses()
   // which atoms are held or in a body changes with the neighbour list; the masses of others may
   // at any step
   const int nall = atom->nlocal + atom->nghost;
-  const bool bodies = fix_rigid_ && !body_mass_.empty();    // not before the first force call
   if (neighbor->ago == 0 || static_cast<int>(mass_.size()) != nall) {
-    special_.clear();
-    for (int i = 0; i < nall; i++) {
-      if (atom->mask[i] & freeze_groupbit_)
-        special_.push_back({i, std::numeric_limits<double>::infinity()});
-      else if (bodies && body_mass_[i] > 0.0)
-        special_.push_back({i, body_mass_[i]});
-    }
+    not_their_own_.clear();
+    for (int i = 0; i < nall; i++)
+      if (mass(i) != atom->rmass[i]) not_their_own_.push_back(i);
   }
   mass_.assign(atom->rmass, atom->rmass + nall);
-  for (const SpecialMass &special : special_) mass_[special.atom] = special.mass;
+  for (const int i : not_their_own_) mass_[i] = mass(i);
   return mass_.data();
 }
 
 double ContactMasses::memory_usage() const
 {
   return static_cast<double>((mass_.capacity() + body_mass_.capacity()) * sizeof(double) +
-                             special_.capacity() * sizeof(SpecialMass));
+                             not_their_own_.capacity() * sizeof(int));
 }

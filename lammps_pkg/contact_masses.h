@@ -2,8 +2,10 @@
 #ifndef LMP_EEPA_CONTACT_MASSES_H
 #define LMP_EEPA_CONTACT_MASSES_H
 
+#include "atom.h"
 #include "pointers.h"
 
+#include <limits>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -23,6 +25,15 @@ class ContactMasses : protected Pointers {
   /// \return nlocal + nghost masses, valid until the next call
   const double *masses();
 
+  /// That of one of them, for those who need few.
+  double mass(int i) const
+  {
+    if (atom->mask[i] & freeze_groupbit_) return std::numeric_limits<double>::infinity();
+    // fix rigid's are not there before the first force call
+    const bool body = fix_rigid_ && !body_mass_.empty() && body_mass_[i] > 0.0;
+    return body ? body_mass_[i] : atom->rmass[i];
+  }
+
   /// Whether ghosts need the body masses that pack() and unpack() carry.
   bool has_bodies() const { return fix_rigid_ != nullptr; }
   /// Takes body masses of owned atoms from fix rigid, after each reneighbouring.
@@ -36,11 +47,7 @@ class ContactMasses : protected Pointers {
   Fix *fix_rigid_ = nullptr;
   int freeze_groupbit_ = 0;
   std::vector<double> body_mass_;    // 0 for a particle in no body
-  struct SpecialMass {
-    int atom;
-    double mass;
-  };
-  std::vector<SpecialMass> special_;    // that are not the atom's own
+  std::vector<int> not_their_own_;    // atoms that are held or in a body
   std::vector<double> mass_;
 };
 

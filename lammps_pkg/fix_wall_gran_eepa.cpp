@@ -257,6 +257,8 @@ void FixWallGranEepa::init()
     error->all(FLERR, "fix {} wall/gran/eepa can not be used with run_style respa", id);
   masses.init("fix wall/gran/eepa");
   keep_ledger = EnergyLedger::wanted(modify);
+  radii_may_change = !modify->get_fix_by_style("^adapt").empty() ||
+      !modify->get_fix_by_style("^set$").empty();
   for (const auto &name : velocity_variable) require_equal_style("velocity", name);
   require_equal_style("load force", load.force.variable);
   require_equal_style("load pressure", load.pressure.variable);
@@ -296,12 +298,12 @@ TimeStepBound FixWallGranEepa::largest_time_step()
 double FixWallGranEepa::contact_time_step()
 {
   double mine = std::numeric_limits<double>::infinity(), stiffest = 0.0;
-  const double *mass = masses.masses();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
+    const double mass = masses.mass(i);
     const double stiffness = eepa::largest_stiffness(coefficients, 2.0 * atom->radius[i]);
     stiffest = std::max(stiffest, stiffness);
-    if (!std::isinf(mass[i])) mine = std::min(mine, eepa::largest_time_step(mass[i], stiffness));
+    if (!std::isinf(mass)) mine = std::min(mine, eepa::largest_time_step(mass, stiffness));
   }
   double bound;
   MPI_Allreduce(&mine, &bound, 1, MPI_DOUBLE, MPI_MIN, world);
@@ -455,5 +457,5 @@ double FixWallGranEepa::memory_usage()
 {
   return static_cast<double>(atom->nmax) * sizeof(double) *
       (n_values + (contact_table ? N_ATOM : 0)) +
-      masses.memory_usage();
+      static_cast<double>(candidates.capacity() * sizeof(int)) + masses.memory_usage();
 }

@@ -21,6 +21,7 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -128,6 +129,13 @@ class FixWallGranEepa : public Fix {
   std::array<double, N_VECTOR> felt_vector;
   bigint felt_reduced = -1;
 
+  // the atoms that contact_loop() visits: all that can touch a surface before they are collected
+  // again
+  std::vector<int> candidates;
+  WallSurfaces collected_at;        // the surfaces then
+  double way_left = 0.0;            // how far they may go until then
+  bool radii_may_change = false;    // in mid-run
+
   EnergyLedger ledger;
   bool keep_ledger = false;
   double power = 0.0;    // of the surfaces on this rank's particles, at the last force call
@@ -147,6 +155,8 @@ class FixWallGranEepa : public Fix {
   double evaluate(const char *what, const eepa::Quantity &quantity);
   double evaluate_load();
   void move_surfaces();
+  bool motion_is_bounded() const;
+  void collect_candidates();
   void sum_forces();
   /// The largest stable time step of particles on the wall. Collective.
   double contact_time_step();

@@ -133,6 +133,9 @@ void FixWallGranEepa::post_force(int /*vflag*/)
     });
   if (masses.has_bodies() && neighbor->ago == 0) masses.collect_bodies();
   move_surfaces();
+  if (update->setupflag || neighbor->ago == 0 || !motion_is_bounded() ||
+      !(surfaces.moved_since(collected_at) <= way_left))
+    collect_candidates();
   felt = {};
   felt_reduced = -1;
   ledger.elastic = eepa::StoredEnergy();
@@ -161,6 +164,39 @@ void FixWallGranEepa::final_integrate()
   platen.end_step(load_now, felt_vector[FORCE_X + surfaces.axis()], dt);
 }
 
+/// Whether no atom moves by more than half the skin between two neighbour lists. LAMMPS promises that
+/// only where it looks at all of them, or makes a new list, in every step.
+bool FixWallGranEepa::motion_is_bounded() const
+{
+  return neighbor->every == 1 && neighbor->delay <= 1 && !neighbor->build_once &&
+      !neighbor->includegroup && !radii_may_change;
+}
+
+/// Which atoms can touch a surface, whatever their group, which may change. Where nothing bounds
+/// their motion: which do so now.
+void FixWallGranEepa::collect_candidates()
+{
+  double margin = 0.0;
+  way_left = 0.0;
+  if (motion_is_bounded()) {
+    // half the skin for the surfaces, and for the atoms as far as they may still go: from where
+    // the neighbour list was made, or from one side of there to the other; and some rounding
+    way_left = 0.5 * neighbor->skin;
+    margin = (1.0 + 1e-6) * (way_left + (neighbor->ago == 0 ? 0.5 : 1.0) * neighbor->skin);
+  }
+  collected_at = surfaces;
+  candidates.clear();
+  const int n_surfaces = surfaces.count();
+  for (int i = 0; i < atom->nlocal; i++) {
+    bool known = false;
+    for (int surface = 0; surface < n_surfaces; surface++)
+      known |= history[i][surface * history_size + eepa::MAX_OVERLAP] != 0.0;
+    if (known || surfaces.near(atom->x[i], atom->radius[i] + margin)) candidates.push_back(i);
+  }
+  if (contact_table && atom->nlocal > 0)
+    std::fill_n(array_atom[0], static_cast<std::size_t>(atom->nlocal) * N_ATOM, 0.0);
+}
+
 template <class ContactLaw> void FixWallGranEepa::contact_loop()
 {
   double **x = atom->x;
@@ -169,14 +205,13 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
   double **omega = atom->omega;
   double **torque = atom->torque;
   const double *radius = atom->radius;
-  const double *mass = masses.masses();
   const bool store = update->setupflag == 0;
   const double time_step = store ? dt : 0.0;
   const int n_surfaces = surfaces.count();
   constexpr bool rolling_spring = ContactLaw::Rolling::has_spring;
 
   eepa::Contact contact;
-  for (int i = 0; i < atom->nlocal; i++) {
+  for (const int i : candidates) {
     if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
     if (!(atom->mask[i] & groupbit)) continue;
 
@@ -191,7 +226,8 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
       contact.overlap = point.overlap;
       contact.size = 2.0 * radius[i];
       // the wall: a partner of infinite mass and radius that does not turn
-      contact.effective_mass = std::isinf(mass[i]) ? 0.0 : mass[i];
+      const double mass = masses.mass(i);
+      contact.effective_mass = std::isinf(mass) ? 0.0 : mass;
       contact.effective_radius = radius[i];
       const double arm = eepa::lever_arm(radius[i], point.overlap);
       contact.velocity = Vec3(v[i]) - point.velocity;

@@ -53,6 +53,23 @@ class WallSurfaces {
     return plane_distance(surface, x) < particle_radius;
   }
 
+  /// Whether any surface is nearer to x than `reach`, or a plane's back.
+  bool near(const double *x, double reach) const
+  {
+    if (!is_plane()) return std::fabs(radius - distance_from_axis(x)) < reach;
+    for (int surface = 0; surface < count(); surface++)
+      if (plane_distance(surface, x) < reach) return true;
+    return false;
+  }
+
+  /// How much nearer the surfaces may have come to anything since they were `before` [length]
+  double moved_since(const WallSurfaces &before) const
+  {
+    if (is_plane()) return std::fabs(position() - before.position());
+    return std::hypot(displacement[0] - before.displacement[0],
+                      displacement[1] - before.displacement[1]);
+  }
+
   /// \param surface  0 .. count() - 1
   /// \param x  centre of a particle of radius `particle_radius`
   SurfacePoint nearest(int surface, const double *x, double particle_radius) const
@@ -68,7 +85,7 @@ class WallSurfaces {
     }
     const double dx = x[0] - displacement[0];
     const double dy = x[1] - displacement[1];
-    const double from_axis = std::sqrt(dx * dx + dy * dy);
+    const double from_axis = distance_from_axis(x);
     const double inside = from_axis < radius ? 1.0 : -1.0;
     point.overlap = particle_radius - inside * (radius - from_axis);
     eepa::Vec3 radial(1.0, 0.0, 0.0);    // any direction serves a particle on the axis
@@ -80,6 +97,13 @@ class WallSurfaces {
 
  private:
   bool is_lower(int surface) const { return has_lo && surface == 0; }
+
+  double distance_from_axis(const double *x) const
+  {
+    const double dx = x[0] - displacement[0];
+    const double dy = x[1] - displacement[1];
+    return std::sqrt(dx * dx + dy * dy);
+  }
 
   /// From a plane to a centre, > 0 on the plane's inner side [length]
   double plane_distance(int surface, const double *x) const
