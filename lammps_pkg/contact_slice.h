@@ -41,6 +41,7 @@ struct ContactSlice {
   int deferrable = 0;                    // atoms below this get the forces that others defer
   std::vector<TouchingPair> touching;
   std::vector<FoundContact> contacts, sorted;    // of a block; sorted by coefficients
+  std::vector<int> class_begin;                  // of each class of coefficients among the sorted
   std::vector<DeferredForce> deferred;           // forces on atoms of other slices
   EnergyLedger ledger;                           // of this force call
   int deep_i = -1, deep_j = -1;                  // a contact deeper than a radius, if there is one

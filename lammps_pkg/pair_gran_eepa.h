@@ -165,6 +165,7 @@ class PairGranEepa : public Pair {
   void work_through(ContactSlice &);
   void open_contact(ContactSlice &, int i, int place);
   void evaluate_block(ContactSlice &, int count);
+  void sort_by_class(ContactSlice &, int count) const;
   template <class ContactLaw>
   void evaluate_plainly(ContactSlice &, const FoundContact *, int, const eepa::Coefficients &);
   template <class ContactLaw>

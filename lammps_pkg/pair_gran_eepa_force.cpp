@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using eepa::Vec3;
@@ -164,7 +165,7 @@ void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
   double **first_history = fix_history->firstvalue;
   const int size = history_size();
   const double *f = atom->f[0], *torque = atom->torque[0];
-  slice.contacts.resize(count);
+  if (static_cast<int>(slice.contacts.size()) < count) slice.contacts.resize(count);
   for (int n = 0; n < count; n++) {
     const int i = slice.touching[n].i, place = slice.touching[n].place;
     const FoundContact contact = {i, firstneigh[i][place] & NEIGHMASK, first_status[i] + place,
@@ -176,17 +177,24 @@ void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
     (this->*evaluate)(slice, slice.contacts.data(), count, coefficient_classes.front());
     return;
   }
-  // those with the same coefficients together
-  slice.sorted.resize(count);
-  int at = 0;
-  for (std::size_t c = 0; c < coefficient_classes.size(); c++) {
-    const int from = at;
-    for (const FoundContact &contact : slice.contacts)
-      if (class_of_pair[pair_index(atom->type[contact.i], atom->type[contact.j])] ==
-          static_cast<int>(c))
-        slice.sorted[at++] = contact;
-    (this->*evaluate)(slice, slice.sorted.data() + from, at - from, coefficient_classes[c]);
-  }
+  sort_by_class(slice, count);
+  for (std::size_t c = 0; c < coefficient_classes.size(); c++)
+    (this->*evaluate)(slice, slice.sorted.data() + slice.class_begin[c],
+                      slice.class_begin[c + 1] - slice.class_begin[c], coefficient_classes[c]);
+}
+
+void PairGranEepa::sort_by_class(ContactSlice &slice, int count) const
+{
+  const auto class_of = [this](const FoundContact &contact) {
+    return class_of_pair[pair_index(atom->type[contact.i], atom->type[contact.j])];
+  };
+  // counted one place on, so that the ends of the classes become their beginnings below
+  slice.class_begin.assign(coefficient_classes.size() + 2, 0);
+  for (int n = 0; n < count; n++) slice.class_begin[class_of(slice.contacts[n]) + 2]++;
+  std::partial_sum(slice.class_begin.begin(), slice.class_begin.end(), slice.class_begin.begin());
+  if (static_cast<int>(slice.sorted.size()) < count) slice.sorted.resize(count);
+  for (int n = 0; n < count; n++)
+    slice.sorted[slice.class_begin[class_of(slice.contacts[n]) + 1]++] = slice.contacts[n];
 }
 
 /* ---------------------------------------------------------------------- evaluating them */
