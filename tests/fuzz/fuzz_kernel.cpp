@@ -107,6 +107,7 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     contact.spin = bytes.vector(speed);
     contact.angular_velocity = bytes.vector(speed / smaller);
     if (bytes.next() % 8 != 0) overlap = reach * bytes.unit();    // else: at rest
+    contact.overlap = overlap;
     if (!(overlap > 0.0)) {
       const History last = load_history<springs>(stored.data());
       const Dissipation lost = dissipation_of_opening<ContactLaw>(c, contact, time_step, last);
@@ -115,8 +116,6 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
       first = true;
       continue;
     }
-    contact.overlap = overlap;
-
     const History before = load_history<springs>(stored.data());
     History history = before;
     const Response r =
