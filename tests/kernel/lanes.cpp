@@ -13,9 +13,8 @@
 
 #ifdef EEPA_HAS_LANES
 
+namespace lanes_test {
 using namespace eepa;
-
-namespace {
 
 constexpr int width = static_cast<int>(Lanes::size());
 
@@ -224,24 +223,6 @@ INSTANTIATE_TEST_SUITE_P(Laws, SideBySide, testing::ValuesIn(cases), [](const au
   return std::string(info.param.name);
 });
 
-TEST(LaneRows, AddSubtractAndStoreTheRowOfTheirLane)
-{
-  Vec3 vectors[width];
-  for (int l = 0; l < width; l++) vectors[l] = Vec3(1.0 + l, 10.0 + l, 100.0 + l);
-  const LaneRows rows(in_lanes(vectors));
-  for (int l = 0; l < width; l++) {
-    double row[5] = {1.0, 2.0, 3.0, 4.0, 5.0};
-    rows.add_to(row, l);
-    rows.subtract_from(row + 1, l);
-    EXPECT_EQ(row[0], 2.0 + l);
-    EXPECT_EQ(row[1], 2.0 + 10.0 + l - (1.0 + l));
-    EXPECT_EQ(row[2], 3.0 + 100.0 + l - (10.0 + l));
-    EXPECT_EQ(row[3], 4.0 - (100.0 + l));
-    EXPECT_EQ(row[4], 5.0);
-    EXPECT_EQ(rows[l], vectors[l]);
-  }
-}
-
-}    // namespace
+}    // namespace lanes_test
 
 #endif
