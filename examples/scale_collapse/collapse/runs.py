@@ -22,7 +22,7 @@ MARKER = "done.json"
 LOG = "log.lammps"
 SCREEN = "screen.txt"
 CURVE = "curve.csv"
-_INCLUDE = re.compile(r"^[^#]*\binclude\s+\$\{files\}/([\w.]+)", re.MULTILINE)
+_INCLUDE = re.compile(r"^[^#\n]*\binclude\s+\$\{files\}/([\w.]+)", re.MULTILINE)
 
 
 class RunFailed(RuntimeError):
@@ -111,6 +111,17 @@ def is_complete(folder: Path, fingerprint: str) -> bool:
 def read_marker(folder: Path) -> dict:
     """What a finished run noted: parameters, times and steps of each stage."""
     return json.loads((folder / MARKER).read_text(encoding="utf-8"))
+
+
+def measured_speed(out: Path) -> Optional[float]:
+    """Particles times steps per second of the finished runs in the folder, if there are any."""
+    work = seconds = 0.0
+    for path in out.glob(f"runs/*/{MARKER}"):
+        marker = json.loads(path.read_text(encoding="utf-8"))
+        stages = [stage for name, stage in marker["stages"].items() if name != "place"]
+        work += marker["particles"] * sum(stage["steps"] for stage in stages)
+        seconds += sum(stage["seconds"] for stage in stages)
+    return work / seconds if seconds > 0.0 else None
 
 
 class Runner:

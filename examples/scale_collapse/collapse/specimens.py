@@ -110,8 +110,9 @@ class Confined:
 
     @property
     def particles(self) -> int:
-        return round(self.reference_particles
-                     * (self.reference_diameter / self.diameter) ** 3)
+        """As LAMMPS rounds, halves up."""
+        return math.floor(self.reference_particles
+                          * (self.reference_diameter / self.diameter) ** 3 + 0.5)
 
     @property
     def size(self) -> float:
