@@ -12,7 +12,7 @@ import numpy as np
 from . import curves as cv
 from .cases import folder_of
 from .measured import ConfinedResult, UnconfinedResult, load_confined, load_unconfined
-from .plan import BASE, COHESIONLESS, FACTORS, Plan, PLATEAU, SETS, stickier, stiffer
+from .plan import BASE, FACTORS, Plan, stickier, stiffer
 from .specimens import Confined, Material
 from .statistics import (Proportion, Value, best_factor, exponent, exponent_from_reference,
                          proportion, ratio_percent, scatter_percent, value_of)
@@ -37,14 +37,9 @@ class Group:
     def strength(self, level: float) -> Value:
         return value_of([result.strength for result in self.unconfined[level]])
 
-    @property
-    def seconds(self) -> float:
-        """Of one confined run, mean over seeds."""
-        return float(np.mean([result.cost.seconds for result in self.confined]))
-
-    @property
-    def steps(self) -> float:
-        return float(np.mean([result.cost.steps for result in self.confined]))
+    def cost(self, what: str) -> float:
+        """Of one confined run, mean over seeds: a field of Cost."""
+        return float(np.mean([getattr(result.cost, what) for result in self.confined]))
 
     @property
     def particles(self) -> int:
@@ -86,16 +81,20 @@ class Row:
     porosity: Value
     coordination: Value
     coordination_deviation: Value
-    strain_percent: Value
+    strain: Value
     constrained_modulus: Value
     bulk_modulus: Value
     bulk_modulus_deviation: Value
     lateral_ratio: Value
     strength: Dict[float, Value]
     strength_deviation: Dict[float, Value]
+    #: of the confined test alone, and of the whole run with the making of the specimen
     steps: float
     seconds: float
     speed_up: float
+    whole_steps: float
+    whole_seconds: float
+    whole_speed_up: float
     #: (d/d of the finest)^4, as particles and steps alone would have it
     expected_speed_up: float
 
@@ -110,27 +109,33 @@ def reference_of(groups: Dict[Key, Group], group: Group) -> Group:
     return min(same or [group], key=lambda g: g.diameter)
 
 
-def make_rows(groups: Dict[Key, Group]) -> List[Row]:
-    return [_row(group, reference_of(groups, group)) for group in groups.values()]
+def comparison_stress(plan: Plan) -> float:
+    """Where groups are compared at equal stress: a little below the last level, for samples come
+    at intervals."""
+    return 0.95 * plan.levels[-1]
 
 
-def at_end(group: Group, quantity: str) -> Value:
-    """A quantity of the loading branch at the highest stress that every seed has."""
-    mean = cv.mean_at_stress(group.curves, "loading", quantity)
-    return Value(float(mean.value[-1]), float(mean.error[-1]))
+def make_rows(groups: Dict[Key, Group], plan: Plan) -> List[Row]:
+    stress = comparison_stress(plan)
+    return [_row(group, reference_of(groups, group), stress) for group in groups.values()]
 
 
-def _row(group: Group, reference: Group) -> Row:
+def at_stress(group: Group, quantity: str, stress: float) -> Value:
+    """A quantity of the loading branch, or `bulk` strain."""
+    def values(branch: cv.Branch) -> np.ndarray:
+        return branch.strain[quantity] if quantity in cv.STRAINS else getattr(branch, quantity)
+    return value_of([float(cv.interpolate(np.array([stress]), c.loading.stress,
+                                          values(c.loading))[0]) for c in group.curves])
+
+
+def _row(group: Group, reference: Group, stress: float) -> Row:
     itself = group is reference
     loading = cv.loading_deviation(group.curves, reference.curves, "bulk")
     unloading = cv.unloading_deviation(group.curves, reference.curves, "bulk")
     up_to = cv.common_strain([group.curves], "bulk")
-    coordination = at_end(group, "coordination")
+    coordination = at_stress(group, "coordination", stress)
     bulk = value_of([r.moduli.bulk for r in group.confined])
     strength = {level: group.strength(level) for level in group.unconfined}
-    cost = group.particles * group.steps
-    if not cost > 0.0:
-        raise ValueError("a run without steps")
     return Row(
         material=group.material.label, mode=group.mode, strain_rate=group.strain_rate,
         diameter_mm=1e3 * group.diameter, particles=group.particles, seeds=len(group.confined),
@@ -139,10 +144,11 @@ def _row(group: Group, reference: Group) -> Row:
         loading_scatter=scatter_percent(cv.mean_stress(group.curves, "bulk", up_to)),
         unloading_deviation=(NOTHING if itself
                              else Value(unloading.percent, unloading.standard_error)),
-        porosity=at_end(group, "bulk_porosity"), coordination=coordination,
+        porosity=at_stress(group, "bulk_porosity", stress), coordination=coordination,
         coordination_deviation=(NOTHING if itself else
-                                ratio_percent(coordination, at_end(reference, "coordination"))),
-        strain_percent=value_of([100.0 * c.loading.strain["bulk"].max() for c in group.curves]),
+                                ratio_percent(coordination, at_stress(reference, "coordination",
+                                                                      stress))),
+        strain=at_stress(group, "bulk", stress),
         constrained_modulus=value_of([r.moduli.constrained for r in group.confined]),
         bulk_modulus=bulk,
         bulk_modulus_deviation=(NOTHING if itself else ratio_percent(bulk, value_of(
@@ -152,7 +158,10 @@ def _row(group: Group, reference: Group) -> Row:
         strength_deviation={level: ratio_percent(value, reference.strength(level))
                             for level, value in strength.items()
                             if not itself and level in reference.unconfined},
-        steps=group.steps, seconds=group.seconds, speed_up=reference.seconds / group.seconds,
+        steps=group.cost("test_steps"), seconds=group.cost("test_seconds"),
+        speed_up=reference.cost("test_seconds") / group.cost("test_seconds"),
+        whole_steps=group.cost("steps"), whole_seconds=group.cost("seconds"),
+        whole_speed_up=reference.cost("seconds") / group.cost("seconds"),
         expected_speed_up=(group.diameter / reference.diameter) ** 4)
 
 
@@ -228,14 +237,14 @@ def free_exponents(groups: Dict[Key, Group], plan: Plan) -> List[FreeExponent]:
     last = plan.levels[-1]
 
     def strain(group: Group) -> Value:
-        return value_of([c.loading.strain["bulk"].max() for c in group.curves])
+        return at_stress(group, "bulk", comparison_stress(plan))
 
     def strength(group: Group) -> Value:
         return group.strength(last)
 
     found = []
     for what, expected, vary, response, text in (
-            ("stiffness", 1.0, stiffer, strain, "strain at the last level"),
+            ("stiffness", 1.0, stiffer, strain, "strain near the last level"),
             ("adhesion", 2.0, stickier, strength, "unconfined strength after the last level")):
         rate = Confined.strain_rate
         reference = groups[(BASE.label, "scaled", plan.diameters[0], rate)]
@@ -273,7 +282,3 @@ def speed_exponent(rows: Sequence[Row], mode: str) -> Optional[Value]:
     fit = exponent(list(by_diameter), [r.seconds for r in by_diameter.values()])
     return Value(-fit.value, fit.error)
 
-
-__all__ = ["BASE", "COHESIONLESS", "PLATEAU", "SETS", "Group", "Row", "group_results",
-           "make_rows", "flow_function", "strength_points", "proportion_of", "free_exponents",
-           "speed_exponent", "mean_crush", "reference_of"]

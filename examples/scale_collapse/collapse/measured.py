@@ -19,6 +19,8 @@ UNLOAD = "unload.csv"
 ELASTIC = (0.5, 0.95)
 #: Samples that the strength is a running mean over: one lasts 2e-4 of strain.
 SMOOTHED = 5
+#: Stages that make a specimen rather than test it.
+MAKING = ("start", "place", "relax", "pack")
 
 
 @dataclass(frozen=True)
@@ -59,17 +61,22 @@ class UnconfinedResult:
 
 @dataclass(frozen=True)
 class Cost:
-    """Loop time of LAMMPS, s, and steps of a whole run (the placing of points has no steps)."""
+    """Loop time of LAMMPS, s, and steps: of the whole run (the placing of points has no steps)
+    and of the test alone, without the making of the specimen."""
 
     particles: int
     seconds: float
     steps: int
+    test_seconds: float
+    test_steps: int
 
     @staticmethod
     def from_marker(marker: Mapping) -> "Cost":
         stages = marker["stages"]
+        test = [s for name, s in stages.items() if name not in MAKING]
         return Cost(marker["particles"], sum(s["seconds"] for s in stages.values()),
-                    sum(s["steps"] for name, s in stages.items() if name != "place"))
+                    sum(s["steps"] for name, s in stages.items() if name != "place"),
+                    sum(s["seconds"] for s in test), sum(s["steps"] for s in test))
 
 
 def axial_stress(samples: np.ndarray) -> np.ndarray:
@@ -147,7 +154,7 @@ def unconfined_from(unload: np.ndarray, crush: np.ndarray, run: Unconfined, cost
         strain, stress, float(smooth[peak]), float(strain[peak]),
         float(crushed["coordination"][peak]), moduli_of(unload, name),
         float(before["bulk_porosity"]), float(before["coordination"]), pull_off,
-        float(inertial_number(run.diameter, np.array(run.specimen.strain_rate),
+        float(inertial_number(run.diameter, np.array(run.crushing_rate),
                               np.array(smooth[peak]))), cost)
 
 

@@ -13,10 +13,11 @@ from .cases import DENSITY, LAWS, fingerprint_of, require_positive
 
 #: Porosity at which a tensile strength is turned into a pull-off force.
 POROSITY = 0.4
-#: Of a packing and its contacts, only to foresee how long a run will be: strain of packing per
-#: step's worth of it, of crushing to the end, and modulus over k1/d_ref.
+#: Of a packing and its contacts, only to foresee how long a run will be: strains of packing and of
+#: crushing to the end, steps of the bath.
 PACKING_STRAIN, CRUSHING_STRAIN, RELAXING_STEPS = 0.06, 0.045, 2000
-HOLD = 0.01
+#: As in.confined has them: s, and parts of the strain rate up to the first level and of crushing.
+HOLD, FIRST, CRUSHING = 0.01, 0.4, 0.6
 PACKING_STRESS = 4.0e3
 
 
@@ -149,7 +150,8 @@ class Confined:
         mass = DENSITY * math.pi / 6.0 * self.diameter**3
         packing = PACKING_STRAIN * size / (0.19 * math.sqrt(mass / (5.0e3 * size)))
         seconds = (HOLD * (1 + len(self.levels))
-                   + (1.5 * self.levels[-1] - PACKING_STRESS) / self.pressure_rate)
+                   + (1.5 * self.levels[-1] - self.levels[0]
+                      + (self.levels[0] - PACKING_STRESS) / FIRST) / self.pressure_rate)
         return round(RELAXING_STEPS + packing + seconds / self.time_step)
 
     def fingerprint(self, inputs: Sequence[bytes], ranks: int) -> str:
@@ -203,12 +205,17 @@ class Unconfined:
     def particles(self) -> int:
         return self.specimen.particles
 
+    @property
+    def crushing_rate(self) -> float:
+        """Strain rate, 1/s."""
+        return CRUSHING * self.specimen.strain_rate
+
     def variables(self) -> List[str]:
         return ["-var", "images", "yes" if self.images else "no"]
 
     def expected_steps(self) -> int:
         seconds = (2.0 * HOLD + 0.5 * self.level / self.specimen.pressure_rate
-                   + CRUSHING_STRAIN / self.specimen.strain_rate)
+                   + CRUSHING_STRAIN / self.crushing_rate)
         return round(seconds / self.specimen.time_step)
 
     def fingerprint(self, inputs: Sequence[bytes], ranks: int) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Dict, List, Sequence
+from typing import Dict, List, Optional, Sequence
 
 import matplotlib
 
@@ -43,9 +43,18 @@ def _modes(groups: Dict[Key, Group], material: str) -> List[str]:
         g.material.label == material and g.mode == mode for g in groups.values())]
 
 
-def _colours(groups: Dict[Key, Group]) -> Dict[float, str]:
+def _errors(errors: Sequence[float], factor: float = 1.0) -> Optional[List[float]]:
+    """For errorbar; nothing where a single seed gives none (which Matplotlib 3.6 can not draw)."""
+    return [factor * e for e in errors] if np.any(np.isfinite(list(errors))) else None
+
+
+def _colour(groups: Dict[Key, Group], group: Group, mode: str) -> str:
+    """By diameter; grey for the finest, scaled one in the column of the unscaled."""
     sizes = sorted({g.diameter for g in groups.values()})
-    return {d: COLOURS[k % len(COLOURS)] for k, d in enumerate(sizes)}
+    if group.mode != mode and len([g for g in groups.values() if g.diameter == group.diameter
+                                   and g.material == group.material and g.mode == mode]):
+        return "#999999"
+    return COLOURS[sizes.index(group.diameter) % len(COLOURS)]
 
 
 def _label(group: Group, mode: str) -> str:
@@ -55,13 +64,13 @@ def _label(group: Group, mode: str) -> str:
 
 def confined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
     """Stress over strain; porosity and coordination number over stress."""
-    modes, colours = _modes(groups, material), _colours(groups)
+    modes = _modes(groups, material)
     figure, axes = plt.subplots(3, len(modes), squeeze=False, sharey="row", sharex="row",
                                 figsize=(1.2 + 4.6 * len(modes), 10.5), constrained_layout=True)
     for column, mode in enumerate(modes):
         top, middle, bottom = axes[:, column]
         for group in _of(groups, material, mode):
-            colour = colours[group.diameter]
+            colour = _colour(groups, group, mode)
             for branch, line in (("loading", "-"), ("unloading", "--")):
                 strain = cv.mean_at_stress(group.curves, branch, "bulk")
                 kwargs = {"color": colour, "linestyle": line, "linewidth": WIDTH[line]}
@@ -90,7 +99,7 @@ def confined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
 
 def unconfined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
     """Stress over strain of crushing after the highest level, and the flow function."""
-    modes, colours = _modes(groups, material), _colours(groups)
+    modes = _modes(groups, material)
     figure, axes = plt.subplots(2, len(modes), squeeze=False, sharey="row",
                                 figsize=(1.2 + 4.6 * len(modes), 7.5), constrained_layout=True)
     for column, mode in enumerate(modes):
@@ -98,7 +107,7 @@ def unconfined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
         for group in _of(groups, material, mode):
             if not group.unconfined:
                 continue
-            colour, level = colours[group.diameter], max(group.unconfined)
+            colour, level = _colour(groups, group, mode), max(group.unconfined)
             mean = mean_crush(group.unconfined[level])
             crush.plot(100.0 * mean.grid, mean.value / 1e3, color=colour,
                        label=_label(group, mode))
@@ -108,8 +117,8 @@ def unconfined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
             function = flow_function(group)
             flow.errorbar(np.array(function.levels) / 1e3,
                           [s.value / 1e3 for s in function.strengths],
-                          [s.error / 1e3 for s in function.strengths], color=colour, marker="o",
-                          markersize=4, capsize=2, label=_label(group, mode))
+                          _errors([s.error for s in function.strengths], 1e-3), color=colour,
+                          marker="o", markersize=4, capsize=2, label=_label(group, mode))
             crush.set_title(f"{mode}, after {level / 1e3:g} kPa")
         crush.set_xlabel("axial strain (%)")
         flow.set_xlabel("consolidation stress (kPa)")
@@ -141,8 +150,8 @@ def deviations(rows: Sequence[Row], path: Path) -> Path:
                           key=lambda r: r.diameter_mm)
             if some:
                 axis.errorbar([r.diameter_mm / finest for r in some], [get(r).value for r in some],
-                              [get(r).error for r in some], color=colour, marker="o", capsize=3,
-                              label=mode)
+                              _errors([get(r).error for r in some]), color=colour, marker="o",
+                              capsize=3, label=mode)
         axis.axhline(0.0, color="black", linewidth=0.6)
         axis.set_title(title, fontsize=10)
         axis.set_xlabel("d over that of the finest")
@@ -157,8 +166,8 @@ def micromechanics(points: Sequence[StrengthPoint], path: Path) -> Path:
     for k, (material, mode) in enumerate(labels):
         some = [p for p in points if (p.material, p.mode) == (material, mode)]
         axis.errorbar([p.packing.value for p in some], [p.reduced_strength.value for p in some],
-                      [p.reduced_strength.error for p in some],
-                      [p.packing.error for p in some], linestyle="none",
+                      _errors([p.reduced_strength.error for p in some]),
+                      _errors([p.packing.error for p in some]), linestyle="none",
                       marker="osD^v<>pP*X"[k % 11], markersize=4, capsize=2,
                       color=COLOURS[k % len(COLOURS)], label=f"{material}, {mode}")
     line = proportion_of(points)
@@ -178,8 +187,8 @@ def exponents(found: Sequence[FreeExponent], plan: Plan, path: Path) -> Path:
     for axis, one in zip(axes[0], found):
         ratio = np.array(one.diameters) / plan.diameters[0]
         values = np.exp([v.value for v in one.logs])
-        axis.errorbar(ratio, values, values * np.array([v.error for v in one.logs]), marker="o",
-                      linestyle="none", capsize=3, color="#0072B2")
+        errors = _errors(values * np.array([v.error for v in one.logs]))
+        axis.errorbar(ratio, values, errors, marker="o", linestyle="none", capsize=3, color="#0072B2")
         reach = np.linspace(1.0, 1.05 * ratio.max(), 50)
         axis.plot(reach, reach**one.exponent.value, color="#0072B2",
                   label=f"fit: exponent {one.exponent.value:.2f}")
@@ -200,11 +209,13 @@ def speed(rows: Sequence[Row], path: Path) -> Path:
     for mode, colour in zip(MODES, ("#0072B2", "#D55E00")):
         some = sorted((r for r in base if r.mode == mode or r.diameter_mm == finest),
                       key=lambda r: r.diameter_mm)
-        axis.plot([r.diameter_mm / finest for r in some], [r.speed_up for r in some], "o-",
-                  color=colour, label=mode)
+        sizes = [r.diameter_mm / finest for r in some]
+        axis.plot(sizes, [r.speed_up for r in some], "o-", color=colour, label=mode)
+        axis.plot(sizes, [r.whole_speed_up for r in some], "o:", markersize=3, color=colour,
+                  label=f"{mode}, whole run")
     reach = np.linspace(1.0, max(r.diameter_mm for r in base) / finest, 50)
     axis.plot(reach, reach**4, "--", color="black", linewidth=0.8, label="(d/d finest)$^4$")
     axis.set(xscale="log", yscale="log", xlabel="d over that of the finest",
-             ylabel="speed-up of a whole confined run")
+             ylabel="speed-up of the confined test")
     axis.legend(fontsize=8, frameon=False)
     return _save(figure, path)

@@ -7,7 +7,6 @@ import math
 import os
 import platform
 import subprocess
-import sys
 from pathlib import Path
 from typing import Dict, List, Sequence, Tuple
 
@@ -27,14 +26,14 @@ from .specimens import Unconfined
 from .statistics import Value
 
 VALUES = ("loading_deviation", "unloading_deviation", "porosity", "coordination",
-          "coordination_deviation", "strain_percent", "constrained_modulus", "bulk_modulus",
+          "coordination_deviation", "strain", "constrained_modulus", "bulk_modulus",
           "bulk_modulus_deviation", "lateral_ratio")
 
 
 def write(plan: Plan, out: Path, lmp: Path) -> str:
     """Writes everything into `out` and returns the text for the terminal."""
     groups = group_results(plan, out)
-    rows = make_rows(groups)
+    rows = make_rows(groups, plan)
     fits = free_exponents(groups, plan)
     write_table(rows, plan.levels, out / "strength.csv")
     write_curves(groups, out / "curves")
@@ -73,7 +72,8 @@ def _figures(groups: Dict[Key, Group], rows: Sequence[Row], fits: Sequence[FreeE
         (figures.micromechanics(strength_points(groups), out / "micromechanics.png"),
          "Strength over the mean pull-off force of the contacts against coordination number and "
          "solid fraction (Thakur et al., Granular Matter 16 (2014) 383)"),
-        (figures.speed(rows, out / "speed.png"), "Speed-up of a whole confined run")]
+        (figures.speed(rows, out / "speed.png"),
+         "Speed-up of the confined test, without and with the making of the specimen")]
     return written
 
 
@@ -89,7 +89,7 @@ HEADER = ["material", "mode", "strain rate (1/s)", "d (mm)", "particles", "seeds
           "inertial number", "loading (% of peak)", "scatter of seeds (%)", "unloading (%)",
           "strain (%)", "porosity", "Z", "Z off (%)", "modulus (MPa)", "bulk modulus (MPa)",
           "K off (%)", "lateral ratio", "strength (kPa)", "strength off (%)", "steps", "s",
-          "speed-up", "(d/d0)^4"]
+          "speed-up", "whole run, s", "speed-up", "(d/d0)^4"]
 
 
 def cells(row: Row) -> List[str]:
@@ -100,21 +100,22 @@ def cells(row: Row) -> List[str]:
             str(row.particles), str(row.seeds), f"{row.inertial_number:.1e}",
             with_error(row.loading_deviation, 2),
             f"{row.loading_scatter:.2f}" if math.isfinite(row.loading_scatter) else "",
-            with_error(row.unloading_deviation, 2), with_error(row.strain_percent, 3),
+            with_error(row.unloading_deviation, 2), with_error(row.strain, 3, 100.0),
             with_error(row.porosity, 4), with_error(row.coordination, 3),
             with_error(row.coordination_deviation, 2),
             with_error(row.constrained_modulus, 2, 1e-6), with_error(row.bulk_modulus, 2, 1e-6),
             with_error(row.bulk_modulus_deviation, 1), with_error(row.lateral_ratio, 3),
             with_error(strength, 2, 1e-3) if strength else "",
             with_error(off, 1) if off else "", f"{row.steps:.0f}", f"{row.seconds:.2f}",
-            f"{row.speed_up:.1f}", f"{row.expected_speed_up:.1f}"]
+            f"{row.speed_up:.1f}", f"{row.whole_seconds:.2f}", f"{row.whole_speed_up:.1f}",
+            f"{row.expected_speed_up:.1f}"]
 
 
 def write_table(rows: Sequence[Row], levels: Sequence[float], path: Path) -> None:
     """Every row and value; SI units, deviations in %."""
     plain = ["material", "mode", "strain_rate", "diameter_mm", "particles", "seeds",
              "inertial_number", "loading_scatter", "steps", "seconds", "speed_up",
-             "expected_speed_up"]
+             "whole_steps", "whole_seconds", "whole_speed_up", "expected_speed_up"]
     names = plain + [f"{name}{end}" for name in VALUES for end in ("", "_error")]
     for level in levels:
         names += [f"{name}_{level / 1e3:g}kPa{end}" for name in ("strength", "strength_deviation")
@@ -197,7 +198,7 @@ def _summary(groups: Dict[Key, Group], rows: Sequence[Row], fits: Sequence[FreeE
     for mode in ("scaled", "unscaled"):
         speed = speed_exponent(rows, mode)
         if speed:
-            lines.append(f"wall time of a confined run, {mode}: d^-{with_error(speed, 2)}")
+            lines.append(f"wall time of the confined test, {mode}: d^-{with_error(speed, 2)}")
     return "\n".join(lines) + "\n"
 
 
@@ -209,9 +210,10 @@ def _fill(page: Page, plan: Plan, out: Path, lmp: Path, groups: Dict[Key, Group]
     page.preformatted(summary)
     page.heading("Every group of runs")
     page.paragraph("Deviations are from the finest scaled particles of the same material; ± is "
-                   "the standard error over seeds. Porosity, Z, strain are those at the last "
-                   "level; moduli, lateral ratio are those of unloading from it; strength is that "
-                   "after it. Speed-up is that of a whole confined run.")
+                   "the standard error over seeds. Strain, porosity, Z are those at 95% of "
+                   "the last level; moduli, lateral ratio are those of unloading from it; strength is "
+                   "that after it. Steps, seconds and speed-up are of the confined test, and of "
+                   "the whole run with the making of the specimen.")
     page.table(HEADER, [cells(row) for row in rows])
     page.heading("Figures")
     for path, caption in written:
@@ -262,7 +264,7 @@ def versions(lmp: Path) -> str:
         f"{matplotlib.__version__}",
         f"machine     {platform.machine()}, {_processor()}, {os.cpu_count()} cores, "
         f"{platform.system()} {platform.release()}",
-        f"command     {Path(sys.argv[0]).name} {' '.join(sys.argv[1:])}"])
+        f"Open MPI    {next(iter(said('mpirun', '--version').splitlines()), 'unknown')}"])
 
 
 def _processor() -> str:
