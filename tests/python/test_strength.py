@@ -285,7 +285,7 @@ class Plan(unittest.TestCase):
 class Claims(unittest.TestCase):
     def test_verdicts_name_the_standard_error_where_it_alone_saves_a_figure(self):
         for value, verdict in ((Value(1.9, 0.1), "yes"), (Value(-1.9, 0.1), "yes"),
-                               (Value(2.5, 0.1), "NO"), (Value(2.5, math.nan), "NO"),
+                               (Value(2.5, 0.1), "NO"), (Value(-2.5, 0.1), "NO"), (Value(2.5, math.nan), "NO"),
                                (Value(2.5, 3.0), "within its standard error only")):
             self.assertEqual(claims._near("x", value, 2.0).verdict, verdict)
 

@@ -188,7 +188,8 @@ def exponents(found: Sequence[FreeExponent], plan: Plan, path: Path) -> Path:
         ratio = np.array(one.diameters) / plan.diameters[0]
         values = np.exp([v.value for v in one.logs])
         errors = _errors(values * np.array([v.error for v in one.logs]))
-        axis.errorbar(ratio, values, errors, marker="o", linestyle="none", capsize=3, color="#0072B2")
+        axis.errorbar(ratio, values, errors, marker="o", linestyle="none", capsize=3,
+                      color="#0072B2")
         reach = np.linspace(1.0, 1.05 * ratio.max(), 50)
         axis.plot(reach, reach**one.exponent.value, color="#0072B2",
                   label=f"fit: exponent {one.exponent.value:.2f}")
