@@ -110,9 +110,9 @@ def reference_of(groups: Dict[Key, Group], group: Group) -> Group:
 
 
 def comparison_stress(plan: Plan) -> float:
-    """Where groups are compared at equal stress: a little below the last level, for samples come
-    at intervals."""
-    return 0.95 * plan.levels[-1]
+    """Where groups are compared at equal stress, Pa: below the last level, for the platen lags and
+    samples come at intervals."""
+    return 0.9 * plan.levels[-1]
 
 
 def make_rows(groups: Dict[Key, Group], plan: Plan) -> List[Row]:

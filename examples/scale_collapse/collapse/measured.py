@@ -114,10 +114,10 @@ def inertial_number(diameter: float, strain_rate: np.ndarray, stress: np.ndarray
 
 
 def loading_inertial_number(samples: np.ndarray, diameter: float) -> float:
-    """The largest on loading; the strain rate is that of the bulk over ten samples, so that the
-    platen's swinging is in it."""
+    """The largest on loading; the strain rate is that of the bulk over twenty samples, 0.2% of
+    strain."""
     load = samples[samples["stage"] == "load"]
-    width = min(10, len(load) - 1)
+    width = min(20, len(load) - 1)
     if width < 1:
         raise BadCurve(f"{len(load)} samples of loading, needed are 2")
     # Holds lie between the samples of loading: no span of samples reaches over one.

@@ -210,7 +210,7 @@ def _fill(page: Page, plan: Plan, out: Path, lmp: Path, groups: Dict[Key, Group]
     page.preformatted(summary)
     page.heading("Every group of runs")
     page.paragraph("Deviations are from the finest scaled particles of the same material; ± is "
-                   "the standard error over seeds. Strain, porosity, Z are those at 95% of "
+                   "the standard error over seeds. Strain, porosity, Z are those at 90% of "
                    "the last level; moduli, lateral ratio are those of unloading from it; "
                    "strength is that after it. Steps, seconds and speed-up are of the confined test, and of "
                    "the whole run with the making of the specimen.")
