@@ -11,7 +11,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${BUILD_DIR:-$root/build}
 
 packages=(cmake ninja-build g++ libopenmpi-dev openmpi-bin libeigen3-dev libgtest-dev
-    libbenchmark-dev libpng-dev python3 python3-numpy python3-matplotlib dpkg-dev xz-utils
+    libbenchmark-dev libpng-dev python3 python3-numpy python3-scipy
+    python3-matplotlib dpkg-dev xz-utils
     ca-certificates)
 
 installed() {
@@ -42,13 +43,13 @@ else
     for tool in cmake ninja c++ mpicxx mpirun tar; do
         command -v "$tool" >/dev/null || missing+=("$tool")
     done
-    sh "$root/scripts/find_python.sh" >/dev/null 2>&1 || missing+=("python3 with NumPy and Matplotlib")
+    sh "$root/scripts/find_python.sh" >/dev/null 2>&1 || missing+=("python3 with NumPy, SciPy and Matplotlib")
     if [ ${#missing[@]} -gt 0 ]; then
         printf 'Missing: %s\n' "${missing[@]}" >&2
         cat >&2 <<'NEEDED'
 This is no Debian or Ubuntu, so nothing is installed here. Needed are: CMake 3.20 or newer, Ninja,
 a C++17 compiler (GCC or Clang) with OpenMP, an MPI with its compiler wrappers, Eigen 3.3 or newer,
-GoogleTest, Google Benchmark, and Python 3 with NumPy and Matplotlib.
+GoogleTest, Google Benchmark, and Python 3 with NumPy, SciPy and Matplotlib.
 NEEDED
         exit 1
     fi

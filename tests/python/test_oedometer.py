@@ -37,12 +37,11 @@ class Study(unittest.TestCase):
         return said.getvalue()
 
     def lammps(self, *variables):
-        words = [LMP, "-in", str(STUDY / "in.oedometer"), "-log", "none", "-var", "out",
-                 str(self.out)]
+        words = [LMP, "-in", "in.oedometer", "-log", "none", "-var", "out", str(self.out)]
         for name, value in zip(variables[::2], variables[1::2]):
             words += ["-var", name, value]
-        return subprocess.run(words, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, timeout=300)
+        return subprocess.run(words, cwd=STUDY, text=True, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
 
     def test_study_and_its_resuming(self):
         words = ("--diameters", "2.5e-3", "3e-3", "--seeds", "2", "1", "--law", "plateau",

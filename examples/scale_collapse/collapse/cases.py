@@ -7,7 +7,7 @@ import json
 import math
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import List, Sequence
+from typing import Any, List, Mapping, Sequence, Tuple
 
 LAWS = ("linear", "plateau")
 MODES = ("scaled", "unscaled")
@@ -32,6 +32,10 @@ class Case:
     seed: int
     reference_diameter: float = 1.0e-3
 
+    #: file that LAMMPS reads, and the run that must be there first: none
+    infile = "in.oedometer"
+    needs = None
+
     def __post_init__(self) -> None:
         require_positive("diameter", self.diameter)
         require_positive("reference diameter", self.reference_diameter)
@@ -48,6 +52,11 @@ class Case:
     def name(self) -> str:
         """Also the name of the folder that keeps the run."""
         return f"d{self.diameter * 1e3:.6g}mm_{self.mode}_{self.law}_seed{self.seed}"
+
+    @property
+    def kind(self) -> Tuple:
+        """Runs of a kind take about as many steps."""
+        return self.diameter, self.scaled
 
     @property
     def particles(self) -> int:
@@ -84,11 +93,16 @@ class Case:
 
         :param inputs: contents of what else decides on it, such as the in-file
         """
-        digest = hashlib.sha256()
-        digest.update(json.dumps({**asdict(self), "ranks": ranks}, sort_keys=True).encode())
-        for content in inputs:
-            digest.update(hashlib.sha256(content).digest())
-        return digest.hexdigest()
+        return fingerprint_of({**asdict(self), "ranks": ranks}, inputs)
+
+
+def fingerprint_of(parameters: Mapping[str, Any], inputs: Sequence[bytes]) -> str:
+    """A digest of parameters and of the contents of files."""
+    digest = hashlib.sha256()
+    digest.update(json.dumps(parameters, sort_keys=True).encode())
+    for content in inputs:
+        digest.update(hashlib.sha256(content).digest())
+    return digest.hexdigest()
 
 
 def require_positive(name: str, value: float) -> None:

@@ -25,7 +25,7 @@ class Progress:
         self._started = time.monotonic()
         self._finished: Dict[Case, int] = {}
         # How much longer or shorter runs like this one were than foreseen.
-        self._correction: Dict[Tuple[float, bool], List[float]] = {}
+        self._correction: Dict[Tuple, List[float]] = {}
         self._work_before = 0.0
 
     def kept(self, case: Case, summary: LogSummary) -> None:
@@ -70,7 +70,7 @@ class Progress:
         """Steps of a run: what it took if it is finished, else foreseen from runs like it."""
         if case in self._finished:
             return self._finished[case]
-        ratios = self._correction.get((case.diameter, case.scaled)) or [
+        ratios = self._correction.get(case.kind) or [
             ratio for some in self._correction.values() for ratio in some] or [1.0]
         return round(case.expected_steps() * sum(ratios) / len(ratios))
 
@@ -98,8 +98,7 @@ class Progress:
     def _count(self, case: Case, summary: LogSummary) -> None:
         steps = sum(stage.steps for name, stage in summary.stages.items() if name != "place")
         self._finished[case] = steps
-        self._correction.setdefault((case.diameter, case.scaled), []).append(
-            steps / case.expected_steps())
+        self._correction.setdefault(case.kind, []).append(steps / case.expected_steps())
 
     def _work(self, case: Case) -> float:
         return float(case.particles * self.steps(case))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -11,7 +12,7 @@ import time
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Dict, Iterator, List, Optional, Sequence
+from typing import Dict, Iterator, List, Optional, Sequence, Tuple
 
 from .cases import Case, folder_of
 from .logs import LogSummary, summarise_file, tail
@@ -21,15 +22,31 @@ MARKER = "done.json"
 LOG = "log.lammps"
 SCREEN = "screen.txt"
 CURVE = "curve.csv"
+_INCLUDE = re.compile(r"^[^#\n]*\binclude\s+\$\{files\}/([\w.]+)", re.MULTILINE)
 
 
 class RunFailed(RuntimeError):
     """A LAMMPS run failed; the message names it and shows how its log ends."""
 
 
+def with_includes(infile: Path) -> List[Path]:
+    """An in-file and, in its folder, those that it includes, directly or not."""
+    found, waiting = [], [infile]
+    while waiting:
+        path = waiting.pop(0)
+        if path not in found:
+            found.append(path)
+            waiting += [infile.with_name(name)
+                        for name in _INCLUDE.findall(path.read_text(encoding="utf-8"))]
+    return found
+
+
 @dataclass(frozen=True)
 class Launcher:
-    """How LAMMPS is started."""
+    """How LAMMPS is started.
+
+    :param infile: what it reads; a case with another `infile` finds that in the same folder
+    """
 
     lmp: Path
     infile: Path
@@ -39,9 +56,15 @@ class Launcher:
     def command(self, case: Case, folder: Path) -> List[str]:
         """Reads the copy of the in-file in the run's folder: LAMMPS reads as it goes, and whoever
         edits the in-file meanwhile shall not change a run that has begun."""
-        return [self.mpirun, "-np", str(self.ranks), str(self.lmp), "-in",
-                str(folder / self.infile.name), "-log", str(folder / LOG), "-var", "out",
-                str(folder), *case.variables()]
+        words = [self.mpirun, "-np", str(self.ranks), str(self.lmp), "-in",
+                 str(folder / self.infile_of(case).name), "-log", str(folder / LOG), "-var", "out",
+                 str(folder), "-var", "files", str(folder), *case.variables()]
+        if case.needs is not None:
+            words += ["-var", "state", str(folder.with_name(case.needs.name) / case.state)]
+        return words
+
+    def infile_of(self, case: Case) -> Path:
+        return self.infile if case.needs is None else self.infile.with_name(case.infile)
 
     def environment(self) -> Dict[str, str]:
         """Open MPI refuses to start as root or more ranks than cores unless told so, and would
@@ -55,12 +78,15 @@ class Launcher:
                 "OMP_NUM_THREADS": "1"}
 
     def fingerprint(self, case: Case) -> str:
-        return case.fingerprint([path.read_bytes() for path in self.inputs()], self.ranks)
+        return case.fingerprint([path.read_bytes() for path in self.inputs(case)], self.ranks)
 
-    def inputs(self) -> List[Path]:
-        """The files that decide on the result: build/lmp loads the plugin that lies beside it."""
+    def inputs(self, case: Case) -> List[Path]:
+        """The files that decide on the result: in-files, also of the run that this one needs, and
+        build/lmp, which loads the plugin that lies beside it."""
         plugin = self.lmp.with_name("eepaplugin.so")
-        return [self.infile, self.lmp] + ([plugin] if plugin.is_file() else [])
+        before = with_includes(self.infile_of(case.needs)) if case.needs is not None else []
+        return (with_includes(self.infile_of(case)) + before + [self.lmp]
+                + ([plugin] if plugin.is_file() else []))
 
 
 @dataclass
@@ -87,6 +113,17 @@ def read_marker(folder: Path) -> dict:
     return json.loads((folder / MARKER).read_text(encoding="utf-8"))
 
 
+def measured_speed(out: Path) -> Optional[float]:
+    """Particles times steps per second of the finished runs in the folder, if there are any."""
+    work = seconds = 0.0
+    for path in out.glob(f"runs/*/{MARKER}"):
+        marker = json.loads(path.read_text(encoding="utf-8"))
+        stages = [stage for name, stage in marker["stages"].items() if name != "place"]
+        work += marker["particles"] * sum(stage["steps"] for stage in stages)
+        seconds += sum(stage["seconds"] for stage in stages)
+    return work / seconds if seconds > 0.0 else None
+
+
 class Runner:
     """Runs cases and keeps each in a folder of its own.
 
@@ -98,7 +135,7 @@ class Runner:
         if jobs < 1:
             raise ValueError(f"jobs is {jobs}, allowed is 1 or more")
         self._launcher = launcher
-        self._infile = launcher.infile.read_bytes()
+        self._files: Dict[Path, Dict[str, bytes]] = {}
         self._out = out
         self._jobs = jobs
         self._progress = progress
@@ -110,18 +147,27 @@ class Runner:
         :raise RunFailed: on the first run that fails; the others are stopped
         """
         waiting = []
-        for case in cases:
+        for case in sorted(cases, key=lambda case: case.needs is None):
             fingerprint = self._launcher.fingerprint(case)
-            if not redo and is_complete(folder_of(self._out, case), fingerprint):
-                self._progress.kept(case, self._summary(folder_of(self._out, case)))
+            folder = folder_of(self._out, case)
+            wanted = [folder / f"{other.state}.restart" for other, _ in waiting
+                      if other.needs == case]
+            if (not redo and is_complete(folder, fingerprint)
+                    and all(path.is_file() for path in wanted)):
+                self._progress.kept(case, self._summary(folder))
             else:
                 waiting.append((case, fingerprint))
+        order = {case: place for place, case in enumerate(cases)}
+        waiting.sort(key=lambda entry: order[entry[0]])
         self._progress.begin()
         try:
             with _deferred_signals() as received:
                 while waiting or self._active:
-                    while waiting and len(self._active) < self._jobs and not received:
-                        self._start(*waiting.pop(0))
+                    while len(self._active) < self._jobs and not received:
+                        ready = self._next(waiting)
+                        if ready is None:
+                            break
+                        self._start(*waiting.pop(ready))
                     time.sleep(poll_seconds)
                     for active in list(self._active):
                         if active.process.poll() is not None:
@@ -140,6 +186,17 @@ class Runner:
             self._stop_all()
             self._progress.close()
 
+    def _contents(self, infile: Path) -> Dict[str, bytes]:
+        """Of the in-file and its includes, as they were when the first such run began."""
+        if infile not in self._files:
+            self._files[infile] = {path.name: path.read_bytes() for path in with_includes(infile)}
+        return self._files[infile]
+
+    def _next(self, waiting: Sequence[Tuple[Case, str]]) -> Optional[int]:
+        """Place of the first run whose needs are met: neither waiting nor under way."""
+        busy = {case for case, _ in waiting} | {active.case for active in self._active}
+        return next((k for k, (case, _) in enumerate(waiting) if case.needs not in busy), None)
+
     def _summary(self, folder: Path) -> LogSummary:
         return summarise_file(folder / LOG)
 
@@ -149,7 +206,8 @@ class Runner:
             shutil.rmtree(stale, ignore_errors=True)
         folder = _beside(final, "partial")
         folder.mkdir(parents=True)
-        (folder / self._launcher.infile.name).write_bytes(self._infile)
+        for name, content in self._contents(self._launcher.infile_of(case)).items():
+            (folder / name).write_bytes(content)
         with (folder / SCREEN).open("wb") as screen:
             # A session of its own: Ctrl-C in the terminal comes here and not to mpirun too.
             process = subprocess.Popen(

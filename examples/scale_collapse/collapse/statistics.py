@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""Fits with the error that the seeds' scatter leaves. Errors are standard errors."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Optional, Sequence
+
+import numpy as np
+
+from .curves import Mean, mean_and_error, root_mean_square
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number and its standard error (not a number where a single seed gives none)."""
+
+    value: float
+    error: float
+
+
+def value_of(numbers: Sequence[float]) -> Value:
+    """Mean and its standard error, s/sqrt(N) with N - 1 in s."""
+    return Value(*mean_and_error(numbers))
+
+
+def ratio_percent(one: Value, reference: Value) -> Value:
+    """How far one is from the reference, in % of it."""
+    ratio = one.value / reference.value
+    error = np.hypot(one.error / reference.value, ratio * reference.error / reference.value)
+    return Value(100.0 * (ratio - 1.0), float(100.0 * error))
+
+
+def scatter_percent(mean: Mean) -> float:
+    """Root mean square of the seeds' standard deviation along a curve, in % of its peak."""
+    peak = float(np.max(np.abs(mean.value)))
+    return 100.0 * root_mean_square(mean.error) * float(np.sqrt(mean.seeds)) / peak
+
+
+def slope(x: np.ndarray, y: np.ndarray) -> Value:
+    """Of the straight line of least squares; its error from the residuals."""
+    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    if len(x) < 2 or np.ptp(x) == 0.0:
+        raise ValueError(f"a slope needs 2 different points or more, there are {len(x)}")
+    apart = x - x.mean()
+    value = float(apart @ y / (apart @ apart))
+    rest = y - y.mean() - value * apart
+    error = (float(np.sqrt(rest @ rest / (len(x) - 2) / (apart @ apart))) if len(x) > 2
+             else float("nan"))
+    return Value(value, error)
+
+
+def exponent(sizes: Sequence[float], values: Sequence[float]) -> Value:
+    """a of values proportional to sizes^a."""
+    return slope(np.log(sizes), np.log(values))
+
+
+def exponent_from_reference(sizes: Sequence[float], logs: Sequence[float],
+                            errors: Sequence[float], reference_error: float) -> Value:
+    """a of log(value/value of the reference) = a log(size), by generalised least squares: every
+    log has its own error, and that of the reference is common to them all.
+
+    Errors that are not known (not a number) make an unweighted fit with the error of its
+    residuals, which itself is not known for one size."""
+    x, y = np.log(np.asarray(sizes, dtype=float)), np.asarray(logs, dtype=float)
+    if len(x) == 0 or np.any(x == 0.0):
+        raise ValueError("the exponent needs sizes other than that of the reference")
+    own = np.asarray(errors, dtype=float)
+    if np.all(np.isfinite(own)) and np.isfinite(reference_error) and np.all(own > 0.0):
+        weights = np.linalg.inv(np.diag(own**2) + reference_error**2)
+        curvature = x @ weights @ x
+        return Value(float(x @ weights @ y / curvature), float(1.0 / np.sqrt(curvature)))
+    value = float(x @ y / (x @ x))
+    rest = y - value * x
+    error = np.sqrt(rest @ rest / (len(x) - 1) / (x @ x)) if len(x) > 1 else np.nan
+    return Value(value, float(error))
+
+
+def best_factor(factors: Sequence[float], responses: Sequence[Value], target: float) -> Value:
+    """log of the factor at which the response is the target, on a straight line through
+    log(response) over log(factor), and its error from those of the responses."""
+    x, y = np.log(factors), np.log([r.value for r in responses])
+    line = slope(x, y)
+    if line.value == 0.0:
+        raise ValueError("the response does not depend on the factor")
+    log_factor = float(x.mean() + (np.log(target) - y.mean()) / line.value)
+    # Of the line at log_factor, sum of weights of independent points.
+    apart = x - x.mean()
+    weights = 1.0 / len(x) + (log_factor - x.mean()) * apart / (apart @ apart)
+    relative = np.array([r.error / r.value for r in responses])
+    return Value(log_factor, float(np.sqrt(np.sum((weights * relative) ** 2)) / abs(line.value)))
+
+
+@dataclass(frozen=True)
+class Proportion:
+    """y = constant x, how much y/x scatters (standard deviation in %), and the exponent of y
+    over x when it is free."""
+
+    constant: float
+    scatter_percent: float
+    exponent: Optional[Value]
+
+
+def proportion(x: Sequence[float], y: Sequence[float]) -> Proportion:
+    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    ratios = y / x
+    scatter = 100.0 * float(np.std(ratios, ddof=1) / ratios.mean()) if len(x) > 1 else float("nan")
+    free = exponent(x, y) if len(x) > 2 and np.ptp(x) > 0.0 else None
+    return Proportion(float(x @ y / (x @ x)), scatter, free)

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""The figures of the study of strength. Each returns the path that it wrote."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Dict, List, Optional, Sequence
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first: there may be no display)
+import numpy as np  # noqa: E402
+
+from . import curves as cv  # noqa: E402
+from .analysis import (FreeExponent, Group, Key, Row, StrengthPoint, flow_function,  # noqa: E402
+                       mean_crush, proportion_of)
+from .plan import BASE, Plan  # noqa: E402
+from .report import COLOURS, WIDTH  # noqa: E402
+from .specimens import Confined  # noqa: E402
+
+MODES = ("scaled", "unscaled")
+
+
+def _save(figure: plt.Figure, path: Path) -> Path:
+    for axis in figure.axes:
+        axis.grid(alpha=0.25, linewidth=0.5)
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+    return path
+
+
+def _of(groups: Dict[Key, Group], material: str, mode: str) -> List[Group]:
+    """The groups of a figure's column, by diameter; the finest one stands in every column."""
+    same = [g for g in groups.values() if g.material.label == material
+            and g.strain_rate == Confined.strain_rate]
+    finest = min((g for g in same if g.mode == "scaled"), key=lambda g: g.diameter)
+    return sorted({id(g): g for g in same if g.mode == mode or g is finest}.values(),
+                  key=lambda g: (g.diameter, g is not finest))
+
+
+def _modes(groups: Dict[Key, Group], material: str) -> List[str]:
+    return [mode for mode in MODES if any(
+        g.material.label == material and g.mode == mode for g in groups.values())]
+
+
+def _errors(errors: Sequence[float], factor: float = 1.0) -> Optional[List[float]]:
+    """For errorbar; nothing where a single seed gives none (which Matplotlib 3.6 can not draw)."""
+    return [factor * e for e in errors] if np.any(np.isfinite(list(errors))) else None
+
+
+def _colour(groups: Dict[Key, Group], group: Group, mode: str) -> str:
+    """By diameter; grey for the finest, scaled one in the column of the unscaled."""
+    sizes = sorted({g.diameter for g in groups.values()})
+    if group.mode != mode and len([g for g in groups.values() if g.diameter == group.diameter
+                                   and g.material == group.material and g.mode == mode]):
+        return "#999999"
+    return COLOURS[sizes.index(group.diameter) % len(COLOURS)]
+
+
+def _label(group: Group, mode: str) -> str:
+    text = f"{1e3 * group.diameter:g} mm"
+    return text if group.mode == mode else f"{text} ({group.mode})"
+
+
+def confined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
+    """Stress over strain; porosity and coordination number over stress."""
+    modes = _modes(groups, material)
+    figure, axes = plt.subplots(3, len(modes), squeeze=False, sharey="row", sharex="row",
+                                figsize=(1.2 + 4.6 * len(modes), 10.5), constrained_layout=True)
+    for column, mode in enumerate(modes):
+        top, middle, bottom = axes[:, column]
+        for group in _of(groups, material, mode):
+            colour = _colour(groups, group, mode)
+            for branch, line in (("loading", "-"), ("unloading", "--")):
+                strain = cv.mean_at_stress(group.curves, branch, "bulk")
+                kwargs = {"color": colour, "linestyle": line, "linewidth": WIDTH[line]}
+                top.plot(100.0 * strain.value, strain.grid / 1e3,
+                         label=_label(group, mode) if branch == "loading" else None, **kwargs)
+                top.fill_betweenx(strain.grid / 1e3, 100.0 * (strain.value - strain.error),
+                                  100.0 * (strain.value + strain.error), color=colour, alpha=0.15,
+                                  linewidth=0.0)
+                for axis, quantity in ((middle, "bulk_porosity"), (bottom, "coordination")):
+                    mean = cv.mean_at_stress(group.curves, branch, quantity)
+                    axis.plot(mean.grid / 1e3, mean.value, **kwargs)
+                    axis.fill_between(mean.grid / 1e3, mean.value - mean.error,
+                                      mean.value + mean.error, color=colour, alpha=0.15,
+                                      linewidth=0.0)
+        top.set_title(mode)
+        top.legend(fontsize=8, frameon=False)
+        top.set_xlabel("axial strain of the bulk (%)")
+        for axis in (middle, bottom):
+            axis.set_xlabel("axial stress (kPa)")
+    for axis, text in zip(axes[:, 0], ("axial stress (kPa)", "porosity of the bulk",
+                                       "coordination number")):
+        axis.set_ylabel(text)
+    figure.suptitle(f"Confined compression, {material}: loading (lines), unloading (dashed)")
+    return _save(figure, path)
+
+
+def unconfined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
+    """Stress over strain of crushing after the highest level, and the flow function."""
+    modes = _modes(groups, material)
+    figure, axes = plt.subplots(2, len(modes), squeeze=False, sharey="row",
+                                figsize=(1.2 + 4.6 * len(modes), 7.5), constrained_layout=True)
+    for column, mode in enumerate(modes):
+        crush, flow = axes[:, column]
+        for group in _of(groups, material, mode):
+            if not group.unconfined:
+                continue
+            colour, level = _colour(groups, group, mode), max(group.unconfined)
+            mean = mean_crush(group.unconfined[level])
+            crush.plot(100.0 * mean.grid, mean.value / 1e3, color=colour,
+                       label=_label(group, mode))
+            crush.fill_between(100.0 * mean.grid, (mean.value - mean.error) / 1e3,
+                               (mean.value + mean.error) / 1e3, color=colour, alpha=0.15,
+                               linewidth=0.0)
+            function = flow_function(group)
+            flow.errorbar(np.array(function.levels) / 1e3,
+                          [s.value / 1e3 for s in function.strengths],
+                          _errors([s.error for s in function.strengths], 1e-3), color=colour,
+                          marker="o", markersize=4, capsize=2, label=_label(group, mode))
+            crush.set_title(f"{mode}, after {level / 1e3:g} kPa")
+        crush.set_xlabel("axial strain (%)")
+        flow.set_xlabel("consolidation stress (kPa)")
+        crush.legend(fontsize=8, frameon=False)
+    axes[0][0].set_ylabel("axial stress (kPa)")
+    axes[1][0].set_ylabel("unconfined strength (kPa)")
+    figure.suptitle(f"Unconfined compression, {material}")
+    return _save(figure, path)
+
+
+def deviations(rows: Sequence[Row], path: Path) -> Path:
+    """Deviation from the finest particles over their relative size, of everything that shall
+    collapse."""
+    base = [r for r in rows if r.material == BASE.label
+            and r.strain_rate == Confined.strain_rate]
+    finest = min(r.diameter_mm for r in base if r.mode == "scaled")
+    last = max((level for r in base for level in r.strength_deviation), default=None)
+    panels = [("stress-strain curve, RMS (% of peak)", lambda r: r.loading_deviation),
+              ("coordination number (%)", lambda r: r.coordination_deviation),
+              ("bulk modulus (%)", lambda r: r.bulk_modulus_deviation)]
+    if last is not None:
+        panels.append((f"strength after {last / 1e3:g} kPa (%)",
+                       lambda r: r.strength_deviation[last]))
+    figure, axes = plt.subplots(1, len(panels), figsize=(4.0 * len(panels), 3.8),
+                                constrained_layout=True)
+    for axis, (title, get) in zip(axes, panels):
+        for mode, colour in zip(MODES, ("#0072B2", "#D55E00")):
+            some = sorted((r for r in base if r.mode == mode and r.diameter_mm > finest),
+                          key=lambda r: r.diameter_mm)
+            if some:
+                axis.errorbar([r.diameter_mm / finest for r in some], [get(r).value for r in some],
+                              _errors([get(r).error for r in some]), color=colour, marker="o",
+                              capsize=3, label=mode)
+        axis.axhline(0.0, color="black", linewidth=0.6)
+        axis.set_title(title, fontsize=10)
+        axis.set_xlabel("d over that of the finest")
+        axis.legend(fontsize=8, frameon=False)
+    return _save(figure, path)
+
+
+def micromechanics(points: Sequence[StrengthPoint], path: Path) -> Path:
+    """sigma_u d^2/f_at against Z (1 - porosity)."""
+    figure, axis = plt.subplots(figsize=(6.5, 5.0), constrained_layout=True)
+    labels = list(dict.fromkeys((p.material, p.mode) for p in points))
+    for k, (material, mode) in enumerate(labels):
+        some = [p for p in points if (p.material, p.mode) == (material, mode)]
+        axis.errorbar([p.packing.value for p in some], [p.reduced_strength.value for p in some],
+                      _errors([p.reduced_strength.error for p in some]),
+                      _errors([p.packing.error for p in some]), linestyle="none",
+                      marker="osD^v<>pP*X"[k % 11], markersize=4, capsize=2,
+                      color=COLOURS[k % len(COLOURS)], label=f"{material}, {mode}")
+    line = proportion_of(points)
+    reach = np.array([0.0, 1.05 * max(p.packing.value for p in points)])
+    axis.plot(reach, line.constant * reach, color="black", linewidth=0.8,
+              label=f"{line.constant:.3f} Z (1 - n)")
+    axis.set_xlabel("Z (1 - n) before crushing")
+    axis.set_ylabel(r"$\sigma_u d^2 / f_{at}$")
+    axis.legend(fontsize=7, frameon=False)
+    return _save(figure, path)
+
+
+def exponents(found: Sequence[FreeExponent], plan: Plan, path: Path) -> Path:
+    """Best coefficients over diameter, with the fitted and the law's exponent."""
+    figure, axes = plt.subplots(1, len(found), figsize=(5.0 * len(found), 4.0), squeeze=False,
+                                constrained_layout=True)
+    for axis, one in zip(axes[0], found):
+        ratio = np.array(one.diameters) / plan.diameters[0]
+        values = np.exp([v.value for v in one.logs])
+        errors = _errors(values * np.array([v.error for v in one.logs]))
+        axis.errorbar(ratio, values, errors, marker="o", linestyle="none", capsize=3,
+                      color="#0072B2")
+        reach = np.linspace(1.0, 1.05 * ratio.max(), 50)
+        axis.plot(reach, reach**one.exponent.value, color="#0072B2",
+                  label=f"fit: exponent {one.exponent.value:.2f}")
+        axis.plot(reach, reach**one.expected, "--", color="black", linewidth=0.8,
+                  label=f"scaling law: {one.expected:g}")
+        axis.set(xscale="log", yscale="log", xlabel="d over that of the finest",
+                 ylabel=f"best {one.what} over that of the finest")
+        axis.legend(fontsize=8, frameon=False)
+    return _save(figure, path)
+
+
+def speed(rows: Sequence[Row], path: Path) -> Path:
+    """Speed-up of the confined test over relative diameter, beside (d/d_finest)^4."""
+    base = [r for r in rows if r.material == BASE.label
+            and r.strain_rate == Confined.strain_rate]
+    finest = min(r.diameter_mm for r in base if r.mode == "scaled")
+    figure, axis = plt.subplots(figsize=(5.5, 4.2), constrained_layout=True)
+    for mode, colour in zip(MODES, ("#0072B2", "#D55E00")):
+        some = sorted((r for r in base if r.mode == mode or r.diameter_mm == finest),
+                      key=lambda r: r.diameter_mm)
+        sizes = [r.diameter_mm / finest for r in some]
+        axis.plot(sizes, [r.speed_up for r in some], "o-", color=colour, label=mode)
+        axis.plot(sizes, [r.whole_speed_up for r in some], "o:", markersize=3, color=colour,
+                  label=f"{mode}, whole run")
+    reach = np.linspace(1.0, max(r.diameter_mm for r in base) / finest, 50)
+    axis.plot(reach, reach**4, "--", color="black", linewidth=0.8, label="(d/d finest)$^4$")
+    axis.set(xscale="log", yscale="log", xlabel="d over that of the finest",
+             ylabel="speed-up of the confined test")
+    axis.legend(fontsize=8, frameon=False)
+    return _save(figure, path)

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-only
+"""Compresses, unloads and crushes packings of several particle diameters and writes a report: do
+stress-strain curve, porosity, coordination number, modulus and strength collapse? See
+strength.md."""
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Optional, Sequence
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+from run_study import build_folder, cores  # noqa: E402  (says what Python lacks)
+
+from collapse import plan as plans  # noqa: E402
+from collapse.curves import BadCurve  # noqa: E402
+from collapse.progress import Progress  # noqa: E402
+from collapse.runs import Launcher, RunFailed, Runner, find_lmp, measured_speed  # noqa: E402
+
+
+def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+    size = parser.add_mutually_exclusive_group(required=True)
+    size.add_argument("--quick", action="store_true",
+                      help="every kind of run on tiny specimens, a minute or two: tries the "
+                           "machinery, the figures mean nothing")
+    size.add_argument("--full", action="store_true",
+                      help="the study, hours; --plan says how many")
+    parser.add_argument("--plan", action="store_true", help="only say what would be run")
+    parser.add_argument("--report", action="store_true",
+                        help="only write the report on runs that are finished")
+    parser.add_argument("--seeds", type=int, default=None, metavar="N",
+                        help="packings of each diameter (default: 5, or 2 with --quick)")
+    parser.add_argument("--finest-seeds", type=int, default=None, metavar="N",
+                        help="packings of the smallest diameter (default: as of the others)")
+    parser.add_argument("--lmp", type=Path, default=None,
+                        help="LAMMPS with this package (default: lmp in the build folder)")
+    parser.add_argument("--mpirun", default="mpirun", help="what starts it")
+    parser.add_argument("--jobs", type=int, default=cores(), help="runs at once, a core each")
+    parser.add_argument("--out", type=Path, default=None,
+                        help="folder of runs and report (default: strength or strength_quick in "
+                             "the build folder)")
+    parser.add_argument("--redo", action="store_true",
+                        help="run again what an earlier call has finished")
+    arguments = parser.parse_args(words)
+    for name in ("seeds", "finest_seeds", "jobs"):
+        value = getattr(arguments, name)
+        if value is not None and value < 1:
+            parser.error(f"--{name.replace('_', '-')} is {value}, allowed is 1 or more")
+    if arguments.quick:
+        if arguments.finest_seeds is not None:
+            parser.error("--finest-seeds goes with --full alone")
+        arguments.study = plans.quick(arguments.seeds or 2)
+    else:
+        seeds = arguments.seeds or 5
+        arguments.study = plans.full(seeds, arguments.finest_seeds or seeds)
+    arguments.out = (arguments.out or build_folder()
+                     / ("strength_quick" if arguments.quick else "strength")).resolve()
+    return arguments
+
+
+def main(words: Optional[Sequence[str]] = None) -> int:
+    arguments = parse_arguments(words)
+    study = arguments.study
+    try:
+        lmp = find_lmp(arguments.lmp, [build_folder() / "lmp"])
+        speed = measured_speed(arguments.out)
+        print(plans.describe(study, arguments.jobs, speed or plans.PARTICLE_STEPS)
+              + (", a speed that finished runs had" if speed else ""), flush=True)
+        if arguments.plan:
+            return 0
+        arguments.out.mkdir(parents=True, exist_ok=True)
+        if not arguments.report:
+            launcher = Launcher(lmp, HERE / "in.confined", arguments.mpirun)
+            runs = study.sorted_runs()
+            Runner(launcher, arguments.out, arguments.jobs,
+                   Progress(runs, arguments.jobs)).run(runs, arguments.redo)
+        from collapse import strength_report
+        print()
+        print(strength_report.write(study, arguments.out, lmp))
+    except KeyboardInterrupt:
+        print("\nStopped. What is finished is kept: the same call goes on from there.")
+        return 130
+    except (RunFailed, BadCurve, OSError) as error:
+        print(f"\nrun_strength.py: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
