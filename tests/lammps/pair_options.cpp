@@ -101,6 +101,33 @@ TEST(Exclusion, LetsParticlesPassThroughEachOther)
   EXPECT_NEAR(simulation.particle(1).x.x(), 0.9, 1e-12);
 }
 
+// rerun does without part of the set-up of a run.
+TEST(Rerun, HasTheForcesOfVirginContacts)
+{
+  const ScratchFile dump(".dump");
+  Packing packing;
+  packing.types = 2;
+  const auto open = [&](Simulation &simulation) {
+    simulation.open_box(packing.half(), 2);
+    simulation.create(packing.spheres());
+    simulation("pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5\n"
+               "pair_coeff 1 2 2e4 2e4 0 -2 0.5");
+  };
+  Simulation set_up, again;
+  open(set_up);
+  set_up("run 0 post no\nwrite_dump all custom " + dump.name() +
+         " id x y z modify format float %.17g");
+  open(again);
+  again("rerun " + dump.name() + " dump x y z");
+  double largest = 0.0;
+  for (int id = 1; id <= 216; id++) {
+    EXPECT_NEAR((set_up.particle(id).f - again.particle(id).f).norm(), 0.0, 1e-9) << id;
+    largest = std::max(largest, again.particle(id).f.norm());
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(largest, 10.0);
+}
+
 // m* against a frozen partner is the moving one's mass: only then does the dashpot give e.
 TEST(Freeze, EffectiveMassIsTheMovingPartners)
 {
