@@ -144,6 +144,22 @@ TEST(Freeze, EffectiveMassIsTheMovingPartners)
   }
 }
 
+// compute pair/local, too, takes the moving one's mass.
+TEST(Freeze, SingleHasTheForceOfTheRun)
+{
+  Simulation simulation;
+  simulation.open_box(3.0);
+  simulation.create({{Vec3(0, 0, 0)}, {Vec3(0.98, 0, 0), Vec3(-1, 0, 0)}});
+  simulation("pair_style gran/eepa linear\npair_coeff 1 1 1e4 1e4 0 0 0 restitution 0.5\n"
+             "group still id 1\nfix freeze still freeze\nfix integrate all nve/sphere\n"
+             "timestep 1e-6");
+  simulation.watch_contacts();
+  simulation("run 0 post no");
+  const double force = simulation.particle(2).f.x();
+  EXPECT_GT(force, 1e4 * 0.02 + 1.0);    // the dashpot
+  EXPECT_NEAR(simulation.contacts().at(0).normal_force, force, 1e-9);
+}
+
 // A rigid dumbbell of mass 2 hits a sphere of mass 1 along its axis: m* = 2/3, and the relative
 // velocity comes out as e of what it was.
 TEST(Rigid, EffectiveMassIsTheBodys)
