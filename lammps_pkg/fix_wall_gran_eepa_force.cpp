@@ -213,7 +213,11 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
   eepa::Contact contact;
   for (const int i : candidates) {
     if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!(atom->mask[i] & groupbit)) {
+      // one that leaves the group in contact must not find its history when it comes back
+      std::fill_n(history[i], n_values, 0.0);
+      continue;
+    }
 
     for (int surface = 0; surface < n_surfaces; surface++) {
       double *values = history[i] + static_cast<std::ptrdiff_t>(surface) * ContactLaw::history_size;
