@@ -116,6 +116,7 @@ void FixWallGranEepa::move_surfaces()
 void FixWallGranEepa::setup(int vflag)
 {
   if (motion == Motion::velocity) evaluate_velocity();
+  if (masses.has_bodies()) masses.collect_bodies();
   platen_warned = false;    // its own bound is checked where its contacts are known
   const double bound = contact_time_step();
   if (style.time_step_check != eepa::TimeStepCheck::off && update->dt > bound)

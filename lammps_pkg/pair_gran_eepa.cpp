@@ -370,6 +370,7 @@ void PairGranEepa::choose_classes()
 
 void PairGranEepa::setup()
 {
+  if (masses.has_bodies()) masses.collect_bodies();    // those of ghosts in compute()
   if (style.time_step_check == eepa::TimeStepCheck::off) return;
   const TimeStepBound bound = largest_time_step();
   if (update->dt <= bound.time_step) return;

@@ -195,6 +195,24 @@ TEST(Rigid, EffectiveMassIsTheBodysAtAWall)
   EXPECT_NEAR(simulation.particle(2).v.z(), 0.5, 1e-3);
 }
 
+// The time step is checked against the mass of the body, 2, at the start of each run: its
+// particles alone would allow 1e-3.
+TEST(Rigid, TimeStepIsCheckedAgainstTheBody)
+{
+  Simulation simulation;
+  simulation.open_box(4.0);
+  Sphere heavy = {Vec3(0, 2, 0)};
+  heavy.density = 4.0 * unit_density;
+  simulation.create({{Vec3(-0.55, 0, 0)}, {Vec3(0.55, 0, 0)}, heavy});
+  simulation("pair_style gran/eepa linear dtcheck error\npair_coeff 1 1 1e4 4e4 0 0 0\n"
+             "group body id 1 2\nfix body body rigid single\n"
+             "fix wall all wall/gran/eepa linear dtcheck error coeff 1e4 4e4 0 0 0 wall zplane -3 "
+             "NULL\ntimestep 1.3e-3");
+  simulation.run(1);
+  simulation.run(1);
+  EXPECT_TRUE(refuses(simulation, "timestep 1.5e-3\nrun 1", "is larger than 0.00141421"));
+}
+
 TEST(Hybrid, IsTheSameAsAlone)
 {
   Packing packing;
