@@ -17,6 +17,7 @@ void ContactMasses::init(const char *command)
   freeze_groupbit_ = freezes.empty() ? 0 : freezes.front()->groupbit;
 
   fix_rigid_ = nullptr;
+  body_mass_.clear();    // atoms may have come, gone and changed places since the last run
   for (auto *fix : modify->get_fix_list()) {
     if (!fix->rigid_flag) continue;
     if (fix_rigid_)

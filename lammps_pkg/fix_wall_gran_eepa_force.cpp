@@ -116,6 +116,7 @@ void FixWallGranEepa::move_surfaces()
 void FixWallGranEepa::setup(int vflag)
 {
   if (motion == Motion::velocity) evaluate_velocity();
+  if (masses.has_bodies()) masses.collect_bodies();
   platen_warned = false;    // its own bound is checked where its contacts are known
   const double bound = contact_time_step();
   if (style.time_step_check != eepa::TimeStepCheck::off && update->dt > bound)
@@ -213,7 +214,11 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
   eepa::Contact contact;
   for (const int i : candidates) {
     if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!(atom->mask[i] & groupbit)) {
+      // one that leaves the group in contact must not find its history when it comes back
+      std::fill_n(history[i], n_values, 0.0);
+      continue;
+    }
 
     for (int surface = 0; surface < n_surfaces; surface++) {
       double *values = history[i] + static_cast<std::ptrdiff_t>(surface) * ContactLaw::history_size;

@@ -200,6 +200,7 @@ void PairGranEepa::init_style()
   }
   init_history();
   choose_law();
+  coefficient_classes.clear();    // init_one() is still to come
 }
 
 void PairGranEepa::init_history()
@@ -369,7 +370,7 @@ void PairGranEepa::choose_classes()
 
 void PairGranEepa::setup()
 {
-  choose_classes();
+  if (masses.has_bodies()) masses.collect_bodies();    // those of ghosts in compute()
   if (style.time_step_check == eepa::TimeStepCheck::off) return;
   const TimeStepBound bound = largest_time_step();
   if (update->dt <= bound.time_step) return;

@@ -49,6 +49,8 @@ ParticleArrays PairGranEepa::particle_arrays()
 void PairGranEepa::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
+  // not in setup(), which rerun does not call
+  if (coefficient_classes.empty()) choose_classes();
   if (masses.has_bodies() && neighbor->ago == 0) {
     masses.collect_bodies();
     comm->forward_comm(this);

@@ -53,10 +53,13 @@ double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, doub
   const double reach = atom->radius[i] + atom->radius[j];
   if (rsq >= reach * reach || !single_law) return 0.0;
 
-  const ParticleArrays particles = particle_arrays();
+  // the masses of these two alone: compute pair/local asks for every pair
+  const ParticleArrays particles = {atom->x[0], atom->v[0], atom->omega[0], atom->radius,
+                                    atom->rmass};
   eepa::Contact contact;
   gather_contact<true>(particles, i, j, particles.at(particles.x, i) - particles.at(particles.x, j),
                        rsq, contact);
+  contact.effective_mass = eepa::effective_mass(masses.mass(i), masses.mass(j));
   eepa::History history;
   const double *values = nullptr;
   double sign = 1.0;

@@ -13,13 +13,24 @@
 #endif
 
 #ifdef __cpp_lib_experimental_parallel_simd
+// where() of GCC 12's library, compiled by clang for AVX-512, takes the wrong one of two lanes.
+#if !(defined(__clang__) && defined(__AVX512F__))
 #define EEPA_HAS_LANES 1
+#endif
+#endif
+
+#ifdef EEPA_HAS_LANES
 
 #include <Eigen/Core>
 
 namespace eepa {
-/// As many doubles as a register holds: 2 with SSE2, 4 with AVX2, 8 with AVX-512.
-using Lanes = std::experimental::native_simd<double>;
+/// As many doubles as a register holds, 4 at most: 2 with SSE2, 4 with AVX, AVX2 and AVX-512. Of
+/// 8 GCC 12's library can not take square roots without a warning.
+using Lanes = std::experimental::simd<
+    double, std::experimental::simd_abi::deduce_t<
+                double, (std::experimental::native_simd<double>::size() < 4
+                             ? std::experimental::native_simd<double>::size()
+                             : 4)>>;
 }    // namespace eepa
 
 namespace Eigen {

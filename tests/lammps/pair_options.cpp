@@ -101,6 +101,33 @@ TEST(Exclusion, LetsParticlesPassThroughEachOther)
   EXPECT_NEAR(simulation.particle(1).x.x(), 0.9, 1e-12);
 }
 
+// rerun does without part of the set-up of a run.
+TEST(Rerun, HasTheForcesOfVirginContacts)
+{
+  const ScratchFile dump(".dump");
+  Packing packing;
+  packing.types = 2;
+  const auto open = [&](Simulation &simulation) {
+    simulation.open_box(packing.half(), 2);
+    simulation.create(packing.spheres());
+    simulation("pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5\n"
+               "pair_coeff 1 2 2e4 2e4 0 -2 0.5");
+  };
+  Simulation set_up, again;
+  open(set_up);
+  set_up("run 0 post no\nwrite_dump all custom " + dump.name() +
+         " id x y z modify format float %.17g");
+  open(again);
+  again("rerun " + dump.name() + " dump x y z");
+  double largest = 0.0;
+  for (int id = 1; id <= 216; id++) {
+    EXPECT_NEAR((set_up.particle(id).f - again.particle(id).f).norm(), 0.0, 1e-9) << id;
+    largest = std::max(largest, again.particle(id).f.norm());
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(largest, 10.0);
+}
+
 // m* against a frozen partner is the moving one's mass: only then does the dashpot give e.
 TEST(Freeze, EffectiveMassIsTheMovingPartners)
 {
@@ -115,6 +142,22 @@ TEST(Freeze, EffectiveMassIsTheMovingPartners)
     EXPECT_NEAR(simulation.particle(2).v.x(), 0.5, 1e-3);
     EXPECT_EQ(simulation.particle(1).v.norm(), 0.0);
   }
+}
+
+// compute pair/local, too, takes the moving one's mass.
+TEST(Freeze, SingleHasTheForceOfTheRun)
+{
+  Simulation simulation;
+  simulation.open_box(3.0);
+  simulation.create({{Vec3(0, 0, 0)}, {Vec3(0.98, 0, 0), Vec3(-1, 0, 0)}});
+  simulation("pair_style gran/eepa linear\npair_coeff 1 1 1e4 1e4 0 0 0 restitution 0.5\n"
+             "group still id 1\nfix freeze still freeze\nfix integrate all nve/sphere\n"
+             "timestep 1e-6");
+  simulation.watch_contacts();
+  simulation("run 0 post no");
+  const double force = simulation.particle(2).f.x();
+  EXPECT_GT(force, 1e4 * 0.02 + 1.0);    // the dashpot
+  EXPECT_NEAR(simulation.contacts().at(0).normal_force, force, 1e-9);
 }
 
 // A rigid dumbbell of mass 2 hits a sphere of mass 1 along its axis: m* = 2/3, and the relative
@@ -150,6 +193,24 @@ TEST(Rigid, EffectiveMassIsTheBodysAtAWall)
              "NULL");
   simulation.run(60000);
   EXPECT_NEAR(simulation.particle(2).v.z(), 0.5, 1e-3);
+}
+
+// The time step is checked against the mass of the body, 2, at the start of each run: its
+// particles alone would allow 1e-3.
+TEST(Rigid, TimeStepIsCheckedAgainstTheBody)
+{
+  Simulation simulation;
+  simulation.open_box(4.0);
+  Sphere heavy = {Vec3(0, 2, 0)};
+  heavy.density = 4.0 * unit_density;
+  simulation.create({{Vec3(-0.55, 0, 0)}, {Vec3(0.55, 0, 0)}, heavy});
+  simulation("pair_style gran/eepa linear dtcheck error\npair_coeff 1 1 1e4 4e4 0 0 0\n"
+             "group body id 1 2\nfix body body rigid single\n"
+             "fix wall all wall/gran/eepa linear dtcheck error coeff 1e4 4e4 0 0 0 wall zplane -3 "
+             "NULL\ntimestep 1.3e-3");
+  simulation.run(1);
+  simulation.run(1);
+  EXPECT_TRUE(refuses(simulation, "timestep 1.5e-3\nrun 1", "is larger than 0.00141421"));
 }
 
 TEST(Hybrid, IsTheSameAsAlone)

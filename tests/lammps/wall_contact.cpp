@@ -110,6 +110,29 @@ TEST(WallHistory, IsForgottenWhenTheContactOpens)
   EXPECT_NEAR(simulation.fix("wall", 3), -1e4 * 0.004, 1e-6);    // virgin
 }
 
+// A particle that leaves the fix's group in contact, and comes back to it, starts anew: that
+// contact was not seen to open.
+TEST(WallHistory, IsForgottenWhenTheParticleLeavesTheGroup)
+{
+  Simulation simulation;
+  open_walls_only(simulation, {{Vec3(0, 0, 0.5)}});
+  simulation("group felt id 1\n"
+             "fix wall felt wall/gran/eepa plateau coeff 1e4 2e4 5e3 0 0.5 wall zplane 0 NULL");
+  auto carry = [&](double distance) {
+    simulation("fix carry all move linear 0 0 " + exact(distance / (1000 * 1e-5)));
+    simulation.run(1000);
+    simulation("unfix carry");
+  };
+  carry(-0.02);
+  EXPECT_NEAR(simulation.fix("wall", 3), -1e4 * 0.02, 1e-6);
+  simulation("group felt clear");
+  carry(0.016);
+  EXPECT_EQ(simulation.fix("wall", 6), 0.0);
+  simulation("group felt id 1");
+  carry(0.0);
+  EXPECT_NEAR(simulation.fix("wall", 3), -1e4 * 0.004, 1e-6);    // virgin
+}
+
 // A set-up call neither winds the spring nor remembers an overlap: displaced out to half of it
 // before any step, the contact is still on its loading line.
 TEST(WallHistory, IsNotChangedBySetUpCalls)
