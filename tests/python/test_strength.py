@@ -18,7 +18,8 @@ STUDY = Path(__file__).resolve().parents[2] / "examples" / "scale_collapse"
 sys.path.insert(0, str(STUDY))
 
 import run_strength  # noqa: E402
-from collapse import claims, curves, measured, plan, runs, specimens, statistics  # noqa: E402
+from collapse import analysis, claims, curves, measured, plan  # noqa: E402
+from collapse import runs, specimens, statistics  # noqa: E402
 from collapse.measured import Cost  # noqa: E402
 from collapse.specimens import Confined, Material, Unconfined  # noqa: E402
 from collapse.statistics import Value  # noqa: E402
@@ -280,6 +281,23 @@ class Plan(unittest.TestCase):
             with contextlib.redirect_stderr(refused), self.assertRaises(SystemExit):
                 run_strength.parse_arguments(words)
             self.assertIn(text, refused.getvalue())
+
+
+class References(unittest.TestCase):
+    def test_of_what_a_group_is_compared_with(self):
+        def group(diameter, mode="scaled", rate=0.5, results=(1, 2, 3)):
+            return analysis.Group(plan.BASE, diameter, mode, rate, list(results),
+                                  {96.0e3: list(results)})
+        groups = {k: g for k, g in enumerate([
+            group(2.0e-3), group(1.0e-3), group(0.5e-3, "unscaled"), group(2.0e-3, "unscaled")])}
+        for one in groups.values():
+            self.assertIs(analysis.reference_of(groups, one), groups[1])
+        slow = group(2.0e-3, rate=0.25, results=(7, 8))
+        reference = analysis.reference_of({**groups, 9: slow}, slow)
+        self.assertEqual((reference.diameter, reference.mode, reference.strain_rate),
+                         (2.0e-3, "scaled", 0.5))
+        # Only the packings that were run at both rates.
+        self.assertEqual((reference.confined, reference.unconfined), ([1, 2], {96.0e3: [1, 2]}))
 
 
 class Claims(unittest.TestCase):

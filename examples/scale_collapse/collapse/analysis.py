@@ -3,7 +3,7 @@
 fits. A group is every seed of one material, diameter, mode and strain rate."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence, Tuple
 
@@ -103,10 +103,19 @@ NOTHING = Value(float("nan"), float("nan"))
 
 
 def reference_of(groups: Dict[Key, Group], group: Group) -> Group:
-    """The finest of the same material: scaled, at the usual strain rate."""
-    same = [g for g in groups.values() if g.material == group.material and g.mode == "scaled"
-            and g.strain_rate == Confined.strain_rate]
-    return min(same or [group], key=lambda g: g.diameter)
+    """The finest of the same material, scaled, at the usual strain rate. Of runs at another rate
+    it is the very same packings at the usual one."""
+    usual = [g for g in groups.values() if g.material == group.material
+             and g.strain_rate == Confined.strain_rate]
+    if group.strain_rate == Confined.strain_rate:
+        return min((g for g in usual if g.mode == "scaled"), default=group,
+                   key=lambda g: g.diameter)
+    same = next((g for g in usual if (g.diameter, g.mode) == (group.diameter, group.mode)), group)
+    # Seeds are read in rising order from 1.
+    count = len(group.confined)
+    return replace(same, confined=same.confined[:count],
+                   unconfined={level: results[:count]
+                               for level, results in same.unconfined.items()})
 
 
 def comparison_stress(plan: Plan) -> float:

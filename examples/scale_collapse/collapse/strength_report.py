@@ -22,7 +22,7 @@ from .cases import folder_of
 from .claims import claims
 from .html import Page
 from .plan import Plan
-from .specimens import Unconfined
+from .specimens import Confined, Unconfined
 from .statistics import Value
 
 VALUES = ("loading_deviation", "unloading_deviation", "porosity", "coordination",
@@ -184,6 +184,13 @@ def _summary(groups: Dict[Key, Group], rows: Sequence[Row], fits: Sequence[FreeE
     for fit in fits:
         lines.append(f"exponent of {fit.what} against d, left free to match {fit.response}: "
                      f"{with_error(fit.exponent, 3)} (scaling law: {fit.expected:g})")
+    for row in rows:
+        if row.strain_rate != Confined.strain_rate:
+            lines.append(f"strain rate {row.strain_rate:g}/s, not {Confined.strain_rate:g}/s, "
+                         f"same packings of {row.diameter_mm:g} mm: curve "
+                         f"{with_error(row.loading_deviation, 2)}% of peak, strength "
+                         + ", ".join(f"{with_error(value, 1)}% after {level / 1e3:g} kPa"
+                                     for level, value in row.strength_deviation.items()))
     for group in groups.values():
         flow = flow_function(group)
         if flow.slope is not None and group.diameter in (plan.diameters[0], plan.diameters[-1]):
@@ -209,11 +216,12 @@ def _fill(page: Page, plan: Plan, out: Path, lmp: Path, groups: Dict[Key, Group]
                [[c.what, c.limit, c.measured, c.verdict] for c in claims(rows)])
     page.preformatted(summary)
     page.heading("Every group of runs")
-    page.paragraph("Deviations are from the finest scaled particles of the same material; ± is "
+    page.paragraph("Deviations are from the finest scaled particles of the same material (at "
+                   "another strain rate: from the same packings at the usual one); ± is "
                    "the standard error over seeds. Strain, porosity, Z are those at 90% of "
                    "the last level; moduli, lateral ratio are those of unloading from it; "
-                   "strength is that after it. Steps, seconds and speed-up are of the confined test, and of "
-                   "the whole run with the making of the specimen.")
+                   "strength is that after it. Steps, seconds and speed-up are of the confined "
+                   "test, and of the whole run with the making of the specimen.")
     page.table(HEADER, [cells(row) for row in rows])
     page.heading("Figures")
     for path, caption in written:
