@@ -479,6 +479,33 @@ TEST(Energy, SlidingOfOneStepIsItsTrapezoidWorkLessTheStoredChange)
   EXPECT_NEAR(out.lost.rolling, rolling, 1e-12 * rolling);
 }
 
+// Springs of another plane are carried into this step's; where nothing slides, nothing is lost
+TEST(Energy, SpringsCarriedIntoANewPlaneLoseNothing)
+{
+  Material m = material(Law::linear, 1e3, 2e3, 0.0);
+  m.p.restitution = 1.0;
+  m.p.kt_given = true;
+  m.p.kt = 100.0;
+  m.p.mu = 100.0;
+  m.p.rolling = RollingModel::sds;
+  m.p.mu_r = 100.0;
+  m.p.kr = 80.0;
+  Bodies b;
+  b.u = Vec3::UnitZ();
+  b.v_i = Vec3(0.1, 0.05, 0.0);
+  b.w_i = Vec3(200.0, -100.0, 0.0);
+  History h;
+  h.max_overlap = b.overlap;
+  h.tangential_spring = 1e-6 * Vec3(0.8, 0.0, 0.6);
+  h.rolling_spring = 1e-6 * Vec3(0.8, 0.0, -0.6);
+  const Outcome out = evaluate(m, b, 1e-6, h);
+  ASSERT_FALSE(out.sliding);
+  ASSERT_GT(h.tangential_spring.norm(), 1.05e-6);
+  ASSERT_GT(h.rolling_spring.norm(), 1.02e-6);
+  EXPECT_NEAR(out.lost.sliding, 0.0, 1e-12 * out.energy.tangential);
+  EXPECT_NEAR(out.lost.rolling, 0.0, 1e-12 * out.energy.rolling);
+}
+
 // f = -B v: B v^2 dt a step, three quarters of it in the contact's first
 TEST(Energy, DashpotsOfOneStep)
 {
@@ -548,6 +575,9 @@ TEST(Energy, InitialOverlapIsNotBookedAsLost)
     h = History();
     const double all = path.loss(0.0, 1e-5);
     EXPECT_NEAR(evaluate(m, b, 1e-6, h).lost.hysteresis, all, 1e-12 * all);
+    b.v_i = Vec3(2.0, 0.0, 0.0);    // it was deeper, but nobody loaded it up to there
+    h = History();
+    EXPECT_EQ(evaluate(m, b, 1e-6, h).lost.hysteresis, 0.0);
   }
 }
 
