@@ -18,9 +18,9 @@ sys.path.insert(0, str(HERE))
 from run_study import build_folder, cores  # noqa: E402  (says what Python lacks)
 
 from collapse.cases import LAWS  # noqa: E402
-from collapse.curves import BadCurve  # noqa: E402
+from collapse.command import exit_status  # noqa: E402
 from collapse.progress import Progress, in_words  # noqa: E402
-from collapse.runs import Launcher, RunFailed, Runner, find_lmp  # noqa: E402
+from collapse.runs import Launcher, Runner, find_lmp  # noqa: E402
 from collapse.specimens import (POROSITY, Confined, Material,  # noqa: E402
                                 pull_off_force)
 
@@ -151,14 +151,8 @@ def fit(arguments: argparse.Namespace) -> int:
 
 def main(words: Optional[Sequence[str]] = None) -> int:
     arguments = parse_arguments(words)
-    try:
-        return tensile(arguments) if arguments.command == "tensile" else fit(arguments)
-    except KeyboardInterrupt:
-        print("\nStopped. What is finished is kept: the same call goes on from there.")
-        return 130
-    except (RunFailed, BadCurve, OSError, ValueError) as error:
-        print(f"\ncalibrate.py: {error}", file=sys.stderr)
-        return 1
+    work = tensile if arguments.command == "tensile" else fit
+    return exit_status("calibrate.py", lambda: work(arguments), ValueError)
 
 
 if __name__ == "__main__":

@@ -16,9 +16,9 @@ sys.path.insert(0, str(HERE))
 from run_study import build_folder, cores  # noqa: E402  (says what Python lacks)
 
 from collapse import plan as plans  # noqa: E402
-from collapse.curves import BadCurve  # noqa: E402
+from collapse.command import exit_status  # noqa: E402
 from collapse.progress import Progress  # noqa: E402
-from collapse.runs import Launcher, RunFailed, Runner, find_lmp, measured_speed  # noqa: E402
+from collapse.runs import Launcher, Runner, find_lmp, measured_speed  # noqa: E402
 
 
 def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace:
@@ -63,32 +63,28 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
     return arguments
 
 
+def run(arguments: argparse.Namespace) -> None:
+    study = arguments.study
+    lmp = find_lmp(arguments.lmp, [build_folder() / "lmp"])
+    speed = measured_speed(arguments.out)
+    print(plans.describe(study, arguments.jobs, speed or plans.PARTICLE_STEPS)
+          + (", a speed that finished runs had" if speed else ""), flush=True)
+    if arguments.plan:
+        return
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    if not arguments.report:
+        launcher = Launcher(lmp, HERE / "in.confined", arguments.mpirun)
+        runs = study.sorted_runs()
+        Runner(launcher, arguments.out, arguments.jobs,
+               Progress(runs, arguments.jobs)).run(runs, arguments.redo)
+    from collapse import strength_report
+    print()
+    print(strength_report.write(study, arguments.out, lmp))
+
+
 def main(words: Optional[Sequence[str]] = None) -> int:
     arguments = parse_arguments(words)
-    study = arguments.study
-    try:
-        lmp = find_lmp(arguments.lmp, [build_folder() / "lmp"])
-        speed = measured_speed(arguments.out)
-        print(plans.describe(study, arguments.jobs, speed or plans.PARTICLE_STEPS)
-              + (", a speed that finished runs had" if speed else ""), flush=True)
-        if arguments.plan:
-            return 0
-        arguments.out.mkdir(parents=True, exist_ok=True)
-        if not arguments.report:
-            launcher = Launcher(lmp, HERE / "in.confined", arguments.mpirun)
-            runs = study.sorted_runs()
-            Runner(launcher, arguments.out, arguments.jobs,
-                   Progress(runs, arguments.jobs)).run(runs, arguments.redo)
-        from collapse import strength_report
-        print()
-        print(strength_report.write(study, arguments.out, lmp))
-    except KeyboardInterrupt:
-        print("\nStopped. What is finished is kept: the same call goes on from there.")
-        return 130
-    except (RunFailed, BadCurve, OSError) as error:
-        print(f"\nrun_strength.py: {error}", file=sys.stderr)
-        return 1
-    return 0
+    return exit_status("run_strength.py", lambda: run(arguments))
 
 
 if __name__ == "__main__":

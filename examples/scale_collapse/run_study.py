@@ -23,9 +23,10 @@ except ImportError as missing:
 from collapse import report  # noqa: E402
 from collapse.cases import (LAWS, Case, folder_of, is_scaled, make_cases,  # noqa: E402
                             seeds_per_diameter)
-from collapse.curves import BadCurve, load_curve  # noqa: E402
+from collapse.command import exit_status  # noqa: E402
+from collapse.curves import load_curve  # noqa: E402
 from collapse.progress import Progress  # noqa: E402
-from collapse.runs import CURVE, Launcher, RunFailed, Runner, find_lmp, read_marker  # noqa: E402
+from collapse.runs import CURVE, Launcher, Runner, find_lmp, read_marker  # noqa: E402
 
 FULL_DIAMETERS = [1.0e-3, 1.5e-3, 2.0e-3]
 QUICK_DIAMETERS = [1.5e-3, 2.0e-3]
@@ -131,27 +132,23 @@ def write_report(arguments: argparse.Namespace) -> str:
     return text
 
 
+def run(arguments: argparse.Namespace) -> None:
+    lmp = find_lmp(arguments.lmp, [build_folder() / "lmp"])
+    launcher = Launcher(lmp, HERE / "in.oedometer", arguments.mpirun, arguments.ranks)
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    print(f"{len(arguments.cases)} runs with {lmp}, {arguments.jobs} at once, "
+          f"into {arguments.out}", flush=True)
+    Runner(launcher, arguments.out, arguments.jobs,
+           Progress(arguments.cases, arguments.jobs)).run(arguments.cases, arguments.redo)
+    print()
+    print(write_report(arguments))
+    print(f"Figure: {arguments.out / 'collapse.png'}\n"
+          f"Table:  {arguments.out / 'table.csv'} and table.txt")
+
+
 def main(words: Optional[Sequence[str]] = None) -> int:
     arguments = parse_arguments(words)
-    try:
-        lmp = find_lmp(arguments.lmp, [build_folder() / "lmp"])
-        launcher = Launcher(lmp, HERE / "in.oedometer", arguments.mpirun, arguments.ranks)
-        arguments.out.mkdir(parents=True, exist_ok=True)
-        print(f"{len(arguments.cases)} runs with {lmp}, {arguments.jobs} at once, "
-              f"into {arguments.out}", flush=True)
-        Runner(launcher, arguments.out, arguments.jobs,
-               Progress(arguments.cases, arguments.jobs)).run(arguments.cases, arguments.redo)
-        print()
-        print(write_report(arguments))
-        print(f"Figure: {arguments.out / 'collapse.png'}\n"
-              f"Table:  {arguments.out / 'table.csv'} and table.txt")
-    except KeyboardInterrupt:
-        print("\nStopped. What is finished is kept: the same call goes on from there.")
-        return 130
-    except (RunFailed, BadCurve, OSError) as error:
-        print(f"\nrun_study.py: {error}", file=sys.stderr)
-        return 1
-    return 0
+    return exit_status("run_study.py", lambda: run(arguments))
 
 
 if __name__ == "__main__":

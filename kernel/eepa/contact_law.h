@@ -12,7 +12,7 @@
 namespace eepa {
 
 /// What a contact does to its partners. Forces and rolling torque act on i, their opposites
-/// on j; the tangential force also turns both, see torque_on().
+/// on j; the tangential force also turns both, see tangential_moment().
 template <class Real> struct ResponseOf {
   Real normal_force;                 ///< f_hys + f_nd along u [force]
   Real hysteretic_force;             ///< f_hys [force]
