@@ -4,6 +4,8 @@
 
 #include "pair_gran_eepa.h"
 
+#include "contact_history.h"
+
 #include <eepa/mixing.h>
 #include <eepa/time_step.h>
 
@@ -12,7 +14,6 @@
 #include "comm.h"
 #include "error.h"
 #include "fix.h"
-#include "fix_neigh_history.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
@@ -21,11 +22,9 @@
 #include "update.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 using namespace LAMMPS_NS;
@@ -212,81 +211,12 @@ void PairGranEepa::init_history()
                "sds can not be switched on or off with a restart",
                style_name, restart_history_size, size);
   if (!fix_history) {
-    // never NEIGH_HISTORY/omp: with newton on it forgets contacts with ghosts
-    fix_history = dynamic_cast<FixNeighHistory *>(modify->replace_fix(
-        history_id + "_DUMMY", fmt::format("{} all NEIGH_HISTORY {}", history_id, size), 0));
-    fix_history->pair = this;
+    fix_history = ContactHistory::replace(lmp, history_id + "_DUMMY", history_id, size, this);
   } else if (fix_history->get_dnum() != size) {
     error->all(FLERR, "{}: rolling sds can not be switched on or off after a run", style_name);
   }
-  check_partners();
-}
-
-namespace {
-/// What LAMMPS's history fix keeps between runs: the partners of each owned particle, by ID.
-struct Partners : FixNeighHistory {
-  static constexpr auto count = &Partners::npartner;
-  static constexpr auto ids = &Partners::partner;
-  static constexpr auto values = &Partners::valuepartner;
-};
-
-/// Of an ordered pair of IDs (the finaliser of splitmix64).
-std::uint64_t hash(tagint a, tagint b)
-{
-  std::uint64_t h =
-      static_cast<std::uint64_t>(a) * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(b);
-  h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
-  h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
-  return h ^ (h >> 31);
-}
-}    // namespace
-
-bool PairGranEepa::partners_are_mutual() const
-{
-  int *const count = fix_history->*Partners::count;
-  tagint **const ids = fix_history->*Partners::ids;
-  std::uint64_t mine = 0, all = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int m = 0; m < count[i]; m++)
-      mine += hash(atom->tag[i], ids[i][m]) - hash(ids[i][m], atom->tag[i]);
-  MPI_Allreduce(&mine, &all, 1, MPI_UINT64_T, MPI_SUM, world);
-  return all == 0;
-}
-
-void PairGranEepa::check_partners()
-{
-  // Between runs each of two partners has the other one's ID, unless particles were deleted, IDs
-  // given again or all of them renumbered. LAMMPS would hand a history to whoever has the ID.
-  if (partners_are_mutual()) return;
-
-  // forget those that have no contacts themselves: they are gone, or new ones with an old ID
-  int *const count = fix_history->*Partners::count;
-  tagint **const ids = fix_history->*Partners::ids;
-  double **const values = fix_history->*Partners::values;
-  std::vector<tagint> mine;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (count[i] > 0) mine.push_back(atom->tag[i]);
-  const int n = static_cast<int>(mine.size());
-  std::vector<int> sizes(comm->nprocs), starts(comm->nprocs, 0);
-  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, world);
-  std::partial_sum(sizes.begin(), sizes.end() - 1, starts.begin() + 1);
-  std::vector<tagint> known(starts.back() + sizes.back());
-  MPI_Allgatherv(mine.data(), n, MPI_LMP_TAGINT, known.data(), sizes.data(), starts.data(),
-                 MPI_LMP_TAGINT, world);
-  std::sort(known.begin(), known.end());
-  const int size = fix_history->get_dnum();
-  for (int i = 0; i < atom->nlocal; i++) {
-    int kept = 0;
-    for (int m = 0; m < count[i]; m++) {
-      if (!std::binary_search(known.begin(), known.end(), ids[i][m])) continue;
-      ids[i][kept] = ids[i][m];
-      std::copy_n(values[i] + static_cast<std::ptrdiff_t>(size) * m, size,
-                  values[i] + static_cast<std::ptrdiff_t>(size) * kept);
-      kept++;
-    }
-    count[i] = kept;
-  }
-  if (!partners_are_mutual())
+  // LAMMPS would hand a history to whoever has the ID
+  if (!fix_history->keep_mutual_partners())
     error->all(
         FLERR,
         "{}: atom IDs were renumbered while there were contacts, whose history is kept by ID; "
@@ -352,18 +282,18 @@ double PairGranEepa::init_one(int i, int j)
 void PairGranEepa::choose_classes()
 {
   // pair_coeff * * gives many pairs of types the same coefficients
+  std::vector<std::array<double, eepa::packed_parameters_size>> given;
   coefficient_classes.clear();
   class_of_pair.assign(coefficients.size(), 0);
   for (int i = 1; i <= atom->ntypes; i++) {
     for (int j = i; j <= atom->ntypes; j++) {
-      const eepa::Coefficients &own = coefficients[pair_index(i, j)];
-      const auto same = std::find_if(coefficient_classes.begin(), coefficient_classes.end(),
-                                     [&own](const auto &other) {
-                                       return std::memcmp(&own, &other, sizeof(own)) == 0;
-                                     });
+      const auto own = eepa::pack(parameters[pair_index(i, j)]);
+      const auto same = std::find(given.begin(), given.end(), own);
       class_of_pair[pair_index(i, j)] = class_of_pair[pair_index(j, i)] =
-          static_cast<int>(same - coefficient_classes.begin());
-      if (same == coefficient_classes.end()) coefficient_classes.push_back(own);
+          static_cast<int>(same - given.begin());
+      if (same != given.end()) continue;
+      given.push_back(own);
+      coefficient_classes.push_back(coefficients[pair_index(i, j)]);
     }
   }
 }

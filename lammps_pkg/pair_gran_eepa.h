@@ -117,7 +117,7 @@ class PairGranEepa : public Pair {
   ContactMasses masses;
   double dt = 0.0;
 
-  class FixNeighHistory *fix_history = nullptr;
+  class ContactHistory *fix_history = nullptr;
   std::string history_id;    // of fix_history, or with _DUMMY of its place holder
   std::vector<double> max_radius_dynamic, max_radius_frozen;    // by type
   bool plateau_warned = false;
@@ -154,8 +154,6 @@ class PairGranEepa : public Pair {
   int history_size() const;
   void warn(const eepa::Words &);
   void warn_of_data_file() const;
-  void check_partners();
-  bool partners_are_mutual() const;
   int find_history(int i, int j, const double *&values, double &sign) const;
 
   ParticleArrays particle_arrays();

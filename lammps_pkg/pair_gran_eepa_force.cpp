@@ -4,6 +4,7 @@
 
 #include "pair_gran_eepa.h"
 
+#include "contact_history.h"
 #include "contact_lanes.h"
 #include "contact_status.h"
 #include "particle_contact.h"
@@ -13,7 +14,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "fix_neigh_history.h"
 #include "force.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -25,6 +25,13 @@
 
 using namespace LAMMPS_NS;
 using eepa::Vec3;
+
+namespace {
+Eigen::Map<Vec3> vector_at(double *array, int i)
+{
+  return Eigen::Map<Vec3>(array + 3 * static_cast<std::ptrdiff_t>(i));
+}
+}    // namespace
 
 void PairGranEepa::choose_law()
 {
@@ -58,6 +65,7 @@ void PairGranEepa::compute(int eflag, int vflag)
   particles = particle_arrays();
   const bool plain = !evflag && !keep_ledger && update->setupflag == 0 && !bonds_weaken_contacts();
   evaluate = plain ? plainly : fully;
+  fix_history->force_is_computed();
   ledger.elastic = eepa::StoredEnergy();
   work_through_list();
   for (auto &slice : slices) {
@@ -267,11 +275,11 @@ void PairGranEepa::evaluate_fully(ContactSlice &slice, const FoundContact *conta
       torque_i += response.rolling_torque;
       torque_j -= response.rolling_torque;
     }
-    Eigen::Map<Vec3>(f + 3 * static_cast<std::ptrdiff_t>(i)) += pair_force;
-    Eigen::Map<Vec3>(torque + 3 * static_cast<std::ptrdiff_t>(i)) += factor * torque_i;
+    vector_at(f, i) += pair_force;
+    vector_at(torque, i) += factor * torque_i;
     if (slice.writes(j)) {
-      Eigen::Map<Vec3>(f + 3 * static_cast<std::ptrdiff_t>(j)) -= pair_force;
-      Eigen::Map<Vec3>(torque + 3 * static_cast<std::ptrdiff_t>(j)) += factor * torque_j;
+      vector_at(f, j) -= pair_force;
+      vector_at(torque, j) += factor * torque_j;
     } else if (slice.defers(j)) {
       slice.deferred.push_back({j, -pair_force, factor * torque_j});
     }

@@ -4,13 +4,13 @@
 
 #include "pair_gran_eepa.h"
 
+#include "contact_history.h"
 #include "contact_status.h"
 #include "particle_contact.h"
 
 #include <eepa/dispatch.h>
 
 #include "atom.h"
-#include "fix_neigh_history.h"
 #include "force.h"
 #include "neigh_list.h"
 

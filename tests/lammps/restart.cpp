@@ -97,6 +97,62 @@ TEST(Restart, KeepsTheHistoryToTheBit)
   EXPECT_EQ(before.tangential(), after.tangential());
 }
 
+/// A packing in a periodic box whose particles have moved since the neighbour list was made, so
+/// that write_restart finds other ghosts than the list has.
+void move_under_an_old_list(Simulation &original, const std::string &newton, int steps)
+{
+  Packing packing;
+  packing.speed = 2.0;
+  original.open_box(packing.half(), 1, "p p p", newton);
+  original.create(packing.spheres());
+  original("neighbor 0.45 bin\nneigh_modify every 1 delay 1000000 check no\n"
+           "pair_style gran/eepa linear\npair_coeff 1 1 1e4 2e4 5e3 -1 0.3\n" +
+           std::string(integrate));
+  original.run(steps);
+}
+
+class ParallelOldListRestart : public testing::TestWithParam<const char *> {};
+
+TEST_P(ParallelOldListRestart, FindsThePartnersOfTheRunsEnd)
+{
+  const ScratchFile after(".restart"), again(".restart"), amid(".restart");
+  Simulation original, gone_on;
+  move_under_an_old_list(original, GetParam(), 300);
+  original("write_restart " + after.name() + "\nwrite_restart " + again.name());
+  original.watch_contacts();
+  original.run(0);
+  const auto expected = histories(original);
+  ASSERT_GT(expected.size(), 400u);
+
+  // without a set-up after a run the histories beside the list are the newer ones again
+  move_under_an_old_list(gone_on, GetParam(), 200);
+  gone_on("restart 300 " + amid.name() + " " + amid.name() + "\nrun 100 pre no post no");
+
+  for (const ScratchFile *file : {&after, &again, &amid}) {
+    Simulation restarted;
+    restarted("read_restart " + file->name() + "\n" + restarted_box + integrate);
+    restarted.watch_contacts();
+    restarted.run(0);
+    EXPECT_EQ(expected, histories(restarted)) << (file == &amid);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Newton, ParallelOldListRestart, testing::Values("on", "off"));
+
+TEST(ParallelRestartOfRestart, IsWrittenAgainWithoutARunBetween)
+{
+  const ScratchFile first(".restart"), second(".restart");
+  Simulation original, copied, restarted;
+  move_under_an_old_list(original, "on", 300);
+  original("write_restart " + first.name());
+  copied("read_restart " + first.name() + "\nwrite_restart " + second.name());
+  restarted("read_restart " + second.name() + "\n" + restarted_box + integrate);
+  for (Simulation *simulation : {&original, &restarted}) {
+    simulation->watch_contacts();
+    simulation->run(0);
+  }
+  EXPECT_EQ(histories(original), histories(restarted));
+}
+
 TEST(Restart, DoesNotTakeAnotherPairStyleBeforeForItsHistory)
 {
   // in the run that writes, gran/eepa is the second style of its kind that was ever made
