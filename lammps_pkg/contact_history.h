@@ -5,16 +5,19 @@
 #include "fix_neigh_history.h"
 
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
 /// LAMMPS's neighbour-history fix, which this package's pair styles keep their contacts with.
 ///
 /// During a run histories stand beside the neighbour list, between runs with the particles, as
-/// lists of partners by ID. LAMMPS's fix makes these lists of the neighbour list whenever a restart
-/// file is written, but the command `write_restart` has given particles and ghosts other places
-/// by then: contacts across a periodic or a processor boundary would get the IDs of strangers.
-/// This one writes the partners that it has where a force was not computed since the run's end.
+/// lists of partners by ID. What this one adds to LAMMPS's is that it knows
+/// - which of the two is newer. LAMMPS's fix makes the lists of partners of the neighbour list
+///   whenever a restart file is written, but the command `write_restart` has given particles and
+///   ghosts other places by then: contacts across a periodic or a processor boundary would get the
+///   IDs of strangers;
+/// - whose the lists are: each has the ID that its particle had when the list was made.
 class ContactHistory : public FixNeighHistory {
  public:
   /// Makes one in the place of the fix of the ID `place_holder`, in LAMMPS's list of fixes.
@@ -23,23 +26,45 @@ class ContactHistory : public FixNeighHistory {
   static ContactHistory *replace(LAMMPS *, const std::string &place_holder, const std::string &id,
                                  int values, class Pair *contacts_of);
 
-  /// Histories beside the neighbour list are newer than those with the particles.
-  void force_is_computed() { partners_are_newest = false; }
+  /// To be called before histories beside the neighbour list change, which are then the newer
+  /// ones. An error where the list is older than a command that gave particles other places.
+  void force_is_computed();
 
+  /// Gives histories to the particles where an error ended the run before LAMMPS did, which only a
+  /// program survives that uses LAMMPS as a library. To be called first in an init. Collective.
+  void end_interrupted_run();
+
+  /// Whether particles with contacts have the IDs that they had at the end of the last run, or
+  /// when the restart file was written. Collective.
+  bool ids_are_kept() const;
+
+  void init() override;
+  void pre_exchange() override;
+  void post_neighbor() override;
   void post_run() override;
-  void write_restart(FILE *) override;
 
-  /// Forgets partners that have no contacts themselves: they were deleted, or are new particles
-  /// with an old ID. To be called between runs. Collective.
-  /// \return whether each of two partners has the other one's ID then: if not, IDs were given
-  ///     anew to particles in contact
-  bool keep_mutual_partners();
+  double memory_usage() override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  void write_restart(FILE *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
 
  private:
-  using FixNeighHistory::FixNeighHistory;
+  ContactHistory(LAMMPS *, int, char **);
   static Fix *make(LAMMPS *, int, char **);
-  bool partners_are_mutual() const;
-  bool partners_are_newest = true;
+  void keep_partners_in_new_pages();
+  void forget_partners_with_new_ids();
+  void reserve_exchange();
+
+  std::vector<tagint> owner;          // ID of the particle that a list of partners is of, 0: new
+  bool partners_are_newest = true;    // and not what stands beside the neighbour list
+  bool list_is_old = true;            // particles may have moved to other places since
 };
 
 }    // namespace LAMMPS_NS

@@ -12,6 +12,7 @@
 #include "atom.h"
 #include "citeme.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
@@ -182,6 +183,14 @@ void PairGranEepa::init_style()
   // an opening that falls on a rebuild must be booked, so such a contact outlives its end
   beyond_contact = keep_ledger ? 1 : 0;
 
+  choose_rolling();
+  init_history();
+  choose_law();
+  coefficient_classes.clear();    // init_one() is still to come
+}
+
+void PairGranEepa::choose_rolling()
+{
   // one rolling law serves all pairs of types: those without take part with mu_r = 0
   rolling = eepa::RollingModel::none;
   for (int i = 1; i <= atom->ntypes; i++) {
@@ -197,9 +206,6 @@ void PairGranEepa::init_style()
       rolling = model;
     }
   }
-  init_history();
-  choose_law();
-  coefficient_classes.clear();    // init_one() is still to come
 }
 
 void PairGranEepa::init_history()
@@ -215,8 +221,9 @@ void PairGranEepa::init_history()
   } else if (fix_history->get_dnum() != size) {
     error->all(FLERR, "{}: rolling sds can not be switched on or off after a run", style_name);
   }
+  fix_history->end_interrupted_run();
   // LAMMPS would hand a history to whoever has the ID
-  if (!fix_history->keep_mutual_partners())
+  if (!fix_history->ids_are_kept())
     error->all(
         FLERR,
         "{}: atom IDs were renumbered while there were contacts, whose history is kept by ID; "
@@ -246,6 +253,24 @@ void PairGranEepa::init_radii()
   max_radius_frozen.assign(n + 1, 0.0);
   MPI_Allreduce(dynamic.data(), max_radius_dynamic.data(), n + 1, MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(frozen.data(), max_radius_frozen.data(), n + 1, MPI_DOUBLE, MPI_MAX, world);
+  warn_of_narrow_box();
+}
+
+void PairGranEepa::warn_of_narrow_box()
+{
+  const double largest = 2.0 *
+      std::max(*std::max_element(max_radius_dynamic.begin(), max_radius_dynamic.end()),
+               *std::max_element(max_radius_frozen.begin(), max_radius_frozen.end()));
+  const int periodic[] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
+  for (int dim = 0; dim < domain->dimension; dim++) {
+    if (!periodic[dim] || domain->prd[dim] >= 2.0 * largest || narrow_box_warned) continue;
+    narrow_box_warned = true;
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "{}: the box is {} wide along {}, less than two of the largest diameters, {}: "
+                     "LAMMPS keeps one history for two particles that touch through two images",
+                     style_name, domain->prd[dim], "xyz"[dim], largest);
+  }
 }
 
 double PairGranEepa::init_one(int i, int j)
@@ -396,6 +421,15 @@ void PairGranEepa::read_restart(FILE *fp)
 void PairGranEepa::write_restart_settings(FILE *fp)
 {
   write_numbers(eepa::pack(style), fp);
+  // without an init, as write_restart noinit may be before the first run, no rolling model is
+  // chosen yet, and the histories of a restart file are not taken up
+  if (!fix_history) {
+    if (allocated) choose_rolling();
+    error->warning(FLERR,
+                   "{}: the restart file has no histories of contacts, because there was neither a "
+                   "run nor an init before it",
+                   style_name);
+  }
   const double size = history_size();
   fwrite(&size, sizeof(double), 1, fp);
 }

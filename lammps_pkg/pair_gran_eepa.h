@@ -120,7 +120,7 @@ class PairGranEepa : public Pair {
   class ContactHistory *fix_history = nullptr;
   std::string history_id;    // of fix_history, or with _DUMMY of its place holder
   std::vector<double> max_radius_dynamic, max_radius_frozen;    // by type
-  bool plateau_warned = false;
+  bool plateau_warned = false, narrow_box_warned = false;
   int restart_history_size = 0;    // of the restart file, 0 without
 
   EnergyLedger ledger;
@@ -149,8 +149,10 @@ class PairGranEepa : public Pair {
   void choose_law();
   void choose_single();
   void choose_classes();
+  void choose_rolling();
   void init_history();
   void init_radii();
+  void warn_of_narrow_box();
   int history_size() const;
   void warn(const eepa::Words &);
   void warn_of_data_file() const;

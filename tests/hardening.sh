@@ -59,7 +59,9 @@ sanitizers() {
     cmake --build "$work/sanitize" >"$work/sanitize.build.log" ||
         die "see $work/sanitize.build.log"
     status=0
-    ctest --test-dir "$work/sanitize" --output-on-failure >"$work/sanitize.log" 2>&1 || status=1
+    # the study's quick mode is hundreds of runs: what it runs is tested by the others
+    ctest --test-dir "$work/sanitize" --output-on-failure -E 'python.strength_study' \
+        >"$work/sanitize.log" 2>&1 || status=1
     [ $status -eq 0 ] || grep -E 'runtime error|ERROR: |Failed|Timeout' "$work/sanitize.log" >&2 || true
     reports=$(grep -cE 'runtime error:|ERROR: (Address|Leak)Sanitizer' "$work/sanitize.log" || true)
     echo "sanitizers: $reports reports; $(grep 'tests passed' "$work/sanitize.log" || echo 'no summary')"
@@ -90,7 +92,8 @@ import xml.etree.ElementTree as tree
 errors = tree.parse(sys.argv[1]).getroot().findall("error")
 def ours(frame):
     text = " ".join(filter(None, (frame.findtext(k) for k in ("obj", "fn", "file"))))
-    return "eepaplugin" in text or "eepa" in (frame.findtext("fn") or "").lower()
+    function = (frame.findtext("fn") or "").lower()
+    return "eepaplugin" in text or "eepa" in function or "contacthistory" in function
 mine = [e for e in errors if any(ours(f) for f in e.iter("frame"))]
 for e in mine:
     what = e.findtext("what") or e.findtext("xwhat/text")

@@ -171,8 +171,73 @@ TEST_P(ParallelReplacement, RenumberedIdsAreRefused)
   EXPECT_TRUE(refuses(restarted, "run 0", message));
 }
 
-// What goes takes its contacts with it: those that stay move as if their neighbours had been taken
-// out by hand between two runs.
+// The pair's histories would be found under the new IDs all the same, one way or another.
+TEST(Insertion, SeesRenumberingThatLeavesPairsOfIds)
+{
+  constexpr const char *message = "atom IDs were renumbered while there were contacts";
+  // the two of the contact change their IDs
+  const std::string start = std::string("pair_style gran/eepa linear\npair_coeff * * ") +
+      coefficients + "\nfix integrate all nve/sphere\ntimestep 2e-4\nrun 60 post no\n";
+  Simulation swapped;
+  swapped.open_box(3.0);
+  swapped.create({{Vec3(0.49, 0, 0), Vec3(-1, 0, 0)}, {Vec3(-0.49, 0, 0), Vec3(1, 0, 0)}});
+  swapped(start);
+  EXPECT_TRUE(refuses(swapped, "reset_atoms id sort yes\nrun 0", message));
+  // those before them go, and they move up
+  Simulation moved_up;
+  moved_up.open_box(3.0);
+  moved_up.create({{Vec3(0, 2, 0)}, {Vec3(0, -2, 0)}, {Vec3(-0.49, 0, 0)}, {Vec3(0.49, 0, 0)}});
+  moved_up(start);
+  EXPECT_TRUE(refuses(moved_up, "group far id 1 2\ndelete_atoms group far\nrun 0", message));
+}
+
+// Spheres that touch to rounding, across a boundary on one side only.
+TEST(Insertion, TakesNoContactOfRoundingForRenumbering)
+{
+  Simulation simulation;
+  simulation.open_box(5.0, 1, "p p p", "off");
+  simulation("lattice sc 1.0 origin 0.05 0.05 0.05\ncreate_atoms 1 box\n"
+             "set group all diameter 1 density 1\npair_style gran/eepa linear\npair_coeff * * " +
+             std::string(coefficients) + "\nfix integrate all nve/sphere\ntimestep 1e-5");
+  EXPECT_EQ(error_of(simulation, "run 1\nrun 1"), "");
+}
+
+// A particle goes in mid-run and in the same step another comes, with its ID and at its place.
+class ParallelReusedId : public testing::TestWithParam<const char *> {};
+
+TEST_P(ParallelReusedId, HasNoHistory)
+{
+  for (const double side : {-1.0, 1.0}) {    // whether it lies before or behind its partner
+    Simulation simulation;
+    simulation.open_box(3.0, 1, "f f f", GetParam());
+    simulation.create({{Vec3(-0.47 * side, 0, 0)}, {Vec3(0.5 * side, 0, 0)}});
+    simulation.set_velocity(2, Vec3(-1.5 * side, 0.5, 0));
+    simulation("group moving id 2\npair_style gran/eepa linear\npair_coeff * * " +
+               std::string(coefficients) + "\nfix integrate all nve/sphere\ntimestep 2e-4");
+    simulation.watch_contacts();
+    simulation.run(60);
+    simulation("velocity all set 0 0 0");
+    simulation.run(0);
+    const double before = simulation.contacts().at(0).max_overlap();
+    const std::string at = exact(0.49 * side), to = exact(0.51 * side);
+    simulation(std::string("region there block ") + (side > 0 ? "0.2 0.9" : "-0.9 -0.2") +
+               " -0.5 0.5 -0.5 0.5\nregion spot block " +
+               (side > 0 ? at + " " + to : to + " " + at) +
+               " -0.005 0.005 -0.005 0.005\nfix goes moving evaporate 1 1 there 123\n"
+               "fix comes all deposit 1 1 1000 777 region spot units box");
+    simulation.run(1);
+    ASSERT_EQ(simulation.particles().size(), 2u);
+    const auto contacts = simulation.contacts();
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_EQ(contacts[0].j + contacts[0].i, 3);
+    EXPECT_GT(before, 1.2 * contacts[0].overlap());
+    EXPECT_LT(contacts[0].max_overlap(), 1.001 * contacts[0].overlap());
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Newton, ParallelReusedId, testing::Values("on", "off"));
+
+// Particles that come and go under way: as many as there should be, finite, with a history that
+// belongs to the contact, and on other ranks the same.
 class ParallelInsertion : public testing::TestWithParam<const char *> {
  protected:
   static std::vector<Particle> rain(MPI_Comm comm, const std::string &newton,

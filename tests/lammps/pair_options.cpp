@@ -290,4 +290,23 @@ TEST(Types, EachPairHasItsOwnCoefficients)
   EXPECT_NEAR(p[4].f.y(), -1e4 * 0.01, 1e-8);
 }
 
+// Two particles that touch through two images have one history, which LAMMPS keeps by ID.
+TEST(NarrowBox, WarnsOfABoxThatIsNarrowerThanTwoDiameters)
+{
+  for (const double half : {0.99, 1.0}) {
+    const ScratchFile log(".log");
+    Simulation simulation(MPI_COMM_WORLD, log.name());
+    simulation.open_box(half, 1, "f p f");
+    simulation.create({{Vec3(0, 0, 0)}});
+    simulation("pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 0 0.3\n"
+               "fix integrate all nve/sphere\ntimestep 1e-4\nrun 0\nrun 0\nlog none");
+    const std::string text = log.text(), warning = "the box is 1.98 wide along y, less than two";
+    const auto at = text.find(warning);
+    EXPECT_EQ(at != std::string::npos, half < 1.0) << text;
+    if (at != std::string::npos) {    // once
+      EXPECT_EQ(text.find(warning, at + 1), std::string::npos);
+    }
+  }
+}
+
 }    // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 using namespace eepa_test;
@@ -137,6 +138,124 @@ TEST_P(ParallelOldListRestart, FindsThePartnersOfTheRunsEnd)
   }
 }
 INSTANTIATE_TEST_SUITE_P(Newton, ParallelOldListRestart, testing::Values("on", "off"));
+
+// write_restart moves particles to where they belong; the neighbour list still has the old places.
+TEST_P(ParallelOldListRestart, IsNotFollowedByARunWithoutPreparation)
+{
+  const ScratchFile file(".restart"), second(".restart");
+  Simulation original, restarted;
+  move_under_an_old_list(original, GetParam(), 300);
+  original("write_restart " + file.name());
+  // a run of no steps computes no force
+  original("run 0 pre no post no\nwrite_restart " + second.name());
+  restarted("read_restart " + second.name() + "\n" + restarted_box + integrate);
+  Simulation expected;
+  expected("read_restart " + file.name() + "\n" + restarted_box + integrate);
+  for (Simulation *simulation : {&original, &restarted, &expected}) {
+    simulation->watch_contacts();
+    simulation->run(0);
+  }
+  ASSERT_GT(histories(expected).size(), 400u);
+  EXPECT_EQ(histories(expected), histories(original));
+  EXPECT_EQ(histories(expected), histories(restarted));
+  EXPECT_TRUE(refuses(original, "write_restart " + file.name() + "\nrun 1 pre no",
+                      "run with pre no after a command that set the system up anew"));
+}
+
+// LAMMPS frees what histories are kept in when the size of its pages changes.
+TEST_P(ParallelOldListRestart, OutlivesOtherPageSizes)
+{
+  Simulation usual, changed;
+  for (Simulation *simulation : {&usual, &changed}) {
+    move_under_an_old_list(*simulation, GetParam(), 300);
+    simulation->watch_contacts();
+  }
+  usual.run(0);
+  for (const char *change : {"neigh_modify page 200000", "neigh_modify one 3000"}) {
+    const ScratchFile file(".restart");
+    changed(std::string(change) + "\nwrite_restart " + file.name());
+    changed.run(0);
+    EXPECT_EQ(histories(usual), histories(changed)) << change;
+    Simulation restarted;
+    restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
+    restarted.watch_contacts();
+    restarted.run(0);
+    EXPECT_EQ(histories(usual), histories(restarted)) << change;
+  }
+}
+
+// A program that uses LAMMPS as a library can catch an error and go on.
+TEST_P(ParallelOldListRestart, HasTheHistoriesOfAnInterruptedRun)
+{
+  const ScratchFile file(".restart");
+  Simulation whole, stopped, restarted;
+  move_under_an_old_list(whole, GetParam(), 300);
+  whole.run(50);
+  move_under_an_old_list(stopped, GetParam(), 300);
+  EXPECT_TRUE(refuses(stopped,
+                      "variable step equal step\nfix stop all halt 1 v_step >= 350 error hard\n"
+                      "run 100",
+                      "halt"));
+  stopped("unfix stop\nwrite_restart " + file.name());
+  restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
+  for (Simulation *simulation : {&whole, &stopped, &restarted}) {
+    simulation->watch_contacts();
+    simulation->run(0);
+  }
+  EXPECT_EQ(histories(whole), histories(stopped));
+  EXPECT_EQ(histories(whole), histories(restarted));
+}
+
+// A particle with more contacts than LAMMPS leaves room for, when particles change processors.
+TEST(ParallelRestartOfRestart, TakesAllContactsOfAParticleAlong)
+{
+  const ScratchFile file(".restart");
+  Simulation original, moved;
+  original.open_box(8.0, 1, "p p p");
+  std::vector<Sphere> spheres(1);
+  spheres[0].x = Vec3(-3.5, -3.5, -3.5);
+  spheres[0].radius = 3.0;
+  for (int k = 0; k < 700; k++) {    // on a spiral around the large one
+    const double z = 1.0 - (2.0 * k + 1.0) / 700.0, angle = k * pi * (3.0 - std::sqrt(5.0));
+    const double r = std::sqrt(1.0 - z * z);
+    Sphere small;
+    small.radius = 0.1;
+    small.x = spheres[0].x + 3.09 * Vec3(r * std::cos(angle), r * std::sin(angle), z);
+    spheres.push_back(small);
+  }
+  original.create(spheres);
+  original("pair_style gran/eepa linear dtcheck off\npair_coeff * * 1e4 2e4 5e3 0 0.3\n" +
+           std::string("fix integrate all nve/sphere\ntimestep 1e-5\ncomm_modify cutoff 7\n"));
+  original.watch_contacts();
+  original.run(5);
+  original("write_restart " + file.name());
+  original.run(0);
+  moved("read_restart " + file.name() + "\n" + restarted_box +
+        "comm_modify cutoff 7\nfix integrate all nve/sphere\ntimestep 1e-5\n");
+  moved.watch_contacts();
+  moved.run(0);
+  moved("group large id 1\ndisplace_atoms large move 7 7 7 units box\n"
+        "displace_atoms large move -7 -7 -7 units box");
+  moved.run(0);
+  ASSERT_GE(moved.contacts().size(), 700u);
+  ASSERT_EQ(moved.contacts().size(), original.contacts().size());
+  const auto a = original.contacts(), b = moved.contacts();
+  for (std::size_t k = 0; k < a.size(); k++) EXPECT_EQ(a[k].max_overlap(), b[k].max_overlap());
+}
+
+TEST(Restart, BeforeAnyRunSaysThatItHasNoHistories)
+{
+  const ScratchFile file(".restart"), log(".log");
+  Simulation original(MPI_COMM_WORLD, log.name()), restarted;
+  original.open_box(3.0);
+  original.create({{Vec3(0, 0, 0)}, {Vec3(0.99, 0, 0)}});
+  original("pair_style gran/eepa linear\npair_coeff 1 1 1e4 4e4 5e3 0 0.5 rolling sds 1e3 1 0.1\n" +
+           std::string("write_restart ") + file.name() + " noinit\nlog none");
+  EXPECT_NE(log.text().find("the restart file has no histories of contacts"), std::string::npos);
+  restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
+  restarted.run(1);
+  EXPECT_GT(restarted.particle(2).f.norm(), 1.0);
+}
 
 TEST(ParallelRestartOfRestart, IsWrittenAgainWithoutARunBetween)
 {
