@@ -35,8 +35,9 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
                         help="only write the report on runs that are finished")
     parser.add_argument("--seeds", type=int, default=None, metavar="N",
                         help="packings of each diameter (default: 5, or 2 with --quick)")
-    parser.add_argument("--finest-seeds", type=int, default=None, metavar="N",
-                        help="packings of the smallest diameter (default: as of the others)")
+    parser.add_argument("--fine-seeds", type=int, default=None, metavar="N",
+                        help="packings of diameters below 1.5 times the smallest, which take most "
+                             "of the time (default: 3, or --seeds if that is less)")
     parser.add_argument("--lmp", type=Path, default=None,
                         help="LAMMPS with this package (default: lmp in the build folder)")
     parser.add_argument("--mpirun", default="mpirun", help="what starts it")
@@ -47,17 +48,17 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
     parser.add_argument("--redo", action="store_true",
                         help="run again what an earlier call has finished")
     arguments = parser.parse_args(words)
-    for name in ("seeds", "finest_seeds", "jobs"):
+    for name in ("seeds", "fine_seeds", "jobs"):
         value = getattr(arguments, name)
         if value is not None and value < 1:
             parser.error(f"--{name.replace('_', '-')} is {value}, allowed is 1 or more")
     if arguments.quick:
-        if arguments.finest_seeds is not None:
-            parser.error("--finest-seeds goes with --full alone")
+        if arguments.fine_seeds is not None:
+            parser.error("--fine-seeds goes with --full alone")
         arguments.study = plans.quick(arguments.seeds or 2)
     else:
         seeds = arguments.seeds or 5
-        arguments.study = plans.full(seeds, arguments.finest_seeds or seeds)
+        arguments.study = plans.full(seeds, arguments.fine_seeds or min(3, seeds))
     arguments.out = (arguments.out or build_folder()
                      / ("strength_quick" if arguments.quick else "strength")).resolve()
     return arguments

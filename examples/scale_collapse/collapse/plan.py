@@ -70,10 +70,10 @@ class _Collector:
     """Specimens that differ from each other in what the methods are given."""
 
     def __init__(self, levels: Sequence[float], side: float, reference_particles: int,
-                 seeds: int, finest: float, finest_seeds: int) -> None:
+                 seeds: int, fine: Sequence[float] = (), fine_seeds: int = 0) -> None:
         self.levels = tuple(levels)
         self._shape: Dict = {"side": side, "reference_particles": reference_particles}
-        self._seeds, self._finest, self._finest_seeds = seeds, finest, finest_seeds
+        self._seeds, self._fine, self._fine_seeds = seeds, tuple(fine), fine_seeds
         self.runs: List[Run] = []
 
     def add(self, material: Material, diameters: Sequence[float], modes: Sequence[str],
@@ -82,7 +82,7 @@ class _Collector:
         for mode in modes:
             for diameter in diameters:
                 scaled = is_scaled(diameter, mode, Confined.reference_diameter)
-                count = self._finest_seeds if diameter == self._finest else self._seeds
+                count = self._fine_seeds if diameter in self._fine else self._seeds
                 for seed in range(1, min(seeds or count, count) + 1):
                     one = Confined(material, diameter, scaled, seed, self.levels,
                                    strain_rate=rate, **self._shape)
@@ -97,15 +97,22 @@ class _Collector:
 BOTH = ("scaled", "unscaled")
 
 
-def full(seeds: int = 5, finest_seeds: int = 5, diameters: Sequence[float] = ()) -> Plan:
-    """The study: specimens ten diameters of the largest particle wide."""
+def full(seeds: int = 5, fine_seeds: int = 3, diameters: Sequence[float] = ()) -> Plan:
+    """The study: specimens ten diameters of the largest particle wide.
+
+    :param fine_seeds: of diameters below 1.5 times the finest, which take most of the time
+    """
     sizes = tuple(sorted(diameters or (1.0e-3, 1.25e-3, 1.5e-3, 2.0e-3, 2.5e-3, 3.0e-3)))
     levels = (16.0e3, 36.0e3, 56.0e3, 76.0e3, 96.0e3)
-    some = _Collector(levels, 30.0e-3, 32400, seeds, sizes[0], finest_seeds)
+    fine = [d for d in sizes if d < 1.5 * sizes[0]]
+    some = _Collector(levels, 30.0e-3, 32400, seeds, fine, fine_seeds)
     coarse = [d for d in sizes if d in (1.5e-3, 2.0e-3, 3.0e-3)] or list(sizes)
     fitted = tuple(d for d in sizes if d >= 1.5e-3) or sizes[1:]
     slowed = coarse[len(coarse) // 2]
-    some.add(BASE, sizes, BOTH, levels)
+    some.add(BASE, sizes, ("scaled",), levels)
+    # unscaled they are nearly the finest: their compression, but no strength, is worth the time
+    some.add(BASE, [d for d in fine if d > sizes[0]], ("unscaled",), ())
+    some.add(BASE, [d for d in sizes if d not in fine], ("unscaled",), levels)
     some.add(COHESIONLESS, coarse, BOTH, ())
     some.add(PLATEAU, coarse, BOTH, levels, seeds=3)
     for material in SETS:
@@ -117,7 +124,7 @@ def full(seeds: int = 5, finest_seeds: int = 5, diameters: Sequence[float] = ())
 def quick(seeds: int = 2) -> Plan:
     """Every kind of run on specimens far too small to mean anything: tries the machinery."""
     sizes, levels = (2.0e-3, 3.0e-3), (16.0e3, 36.0e3)
-    some = _Collector(levels, 15.0e-3, 8100, seeds, sizes[0], seeds)
+    some = _Collector(levels, 15.0e-3, 8100, seeds)
     some.add(BASE, sizes, BOTH, levels)
     some.add(COHESIONLESS, sizes[1:], ("scaled",), ())
     some.add(PLATEAU, sizes[1:], ("scaled",), levels[-1:])
