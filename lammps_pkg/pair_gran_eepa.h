@@ -163,6 +163,7 @@ class PairGranEepa : public Pair {
   /// Has every slice of the neighbour list worked through.
   virtual void work_through_list();
   void work_through(ContactSlice &);
+  void prefetch_neighbors(int place, int end, const double *f, const double *torque) const;
   void open_contact(ContactSlice &, int i, int place);
   void evaluate_block(ContactSlice &, int count);
   void sort_by_class(ContactSlice &, int count) const;

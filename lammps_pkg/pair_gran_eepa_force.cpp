@@ -95,6 +95,57 @@ void PairGranEepa::work_through_list()
   work_through(slice);
 }
 
+/* ---------------------------------------------------------------------- fetching ahead */
+
+// These are inlined by force: GCC takes a function that does nothing else for one without effect,
+// and drops its calls.
+
+namespace {
+EEPA_FUNCTION void prefetch([[maybe_unused]] const void *read)
+{
+#if defined(__GNUC__) || defined(__clang__)
+  __builtin_prefetch(read);
+#endif
+}
+
+EEPA_FUNCTION void prefetch_written([[maybe_unused]] const void *written)
+{
+#if defined(__GNUC__) || defined(__clang__)
+  __builtin_prefetch(written, 1);
+#endif
+}
+
+/// What the evaluation of a contact reads and writes of its partner j. Particle i comes in turn.
+EEPA_FUNCTION void prefetch_partner(std::ptrdiff_t j, const ParticleArrays &p, const double *f,
+                                    const double *torque)
+{
+  prefetch(p.v + 3 * j);
+  prefetch(p.omega + 3 * j);
+  prefetch(p.mass + j);
+  prefetch_written(f + 3 * j);
+  prefetch_written(torque + 3 * j);
+}
+}    // namespace
+
+/// What the search is going to read, in the order in which it needs that, and of the last
+/// neighbour of a particle also what a contact with it takes: a neighbour list goes through the
+/// box in layers, and that is where a particle comes into sight for the first time.
+EEPA_FUNCTION void PairGranEepa::prefetch_neighbors(int place, int end, const double *f,
+                                                    const double *torque) const
+{
+  constexpr int soon = 8, later = 16;    // particles on
+  if (place + later >= end) return;
+  const int far = list->ilist[place + later], near = list->ilist[place + soon];
+  prefetch(list->firstneigh[far]);
+  prefetch(fix_history->firstflag[far]);
+  prefetch_written(fix_history->firstvalue[near]);
+  if (list->numneigh[near] == 0) return;
+  const std::ptrdiff_t j = list->firstneigh[near][list->numneigh[near] - 1] & NEIGHMASK;
+  prefetch(particles.x + 3 * j);
+  prefetch(particles.radius + j);
+  prefetch_partner(j, particles, f, torque);
+}
+
 /* ---------------------------------------------------------------------- finding contacts */
 
 void PairGranEepa::work_through(ContactSlice &slice)
@@ -107,6 +158,7 @@ void PairGranEepa::work_through(ContactSlice &slice)
   int **first_status = fix_history->firstflag;
   const double *x = particles.x;
   const double *radius = particles.radius;
+  const double *f = atom->f[0], *torque = atom->torque[0];
 
   int count = 0;
   for (int ii = slice.begin; ii < slice.end; ii++) {
@@ -117,6 +169,7 @@ void PairGranEepa::work_through(ContactSlice &slice)
     const double *x_i = x + 3 * static_cast<std::ptrdiff_t>(i);
     const double x_of_i = x_i[0], y_of_i = x_i[1], z_of_i = x_i[2];
     const double radius_i = radius[i];
+    prefetch_neighbors(ii, slice.end, f, torque);
 
     // most neighbours do not touch: they cost one distance, and their place is overwritten
     if (static_cast<int>(slice.touching.size()) < count + jnum)
@@ -151,23 +204,6 @@ void PairGranEepa::open_contact(ContactSlice &slice, int i, int place)
   std::fill_n(values, size, 0.0);
 }
 
-/// Has the processor fetch what the evaluation of a contact is going to read and write, but for
-/// particle i, which comes in turn. Inlined by force: GCC takes a function that does nothing else
-/// for one without effect, and drops its calls.
-EEPA_FUNCTION void prefetch(const FoundContact &contact, const ParticleArrays &p, const double *f,
-                            const double *torque)
-{
-#if defined(__GNUC__) || defined(__clang__)
-  const std::ptrdiff_t j = 3 * static_cast<std::ptrdiff_t>(contact.j);
-  __builtin_prefetch(contact.history, 1);
-  __builtin_prefetch(p.v + j);
-  __builtin_prefetch(p.omega + j);
-  __builtin_prefetch(p.mass + contact.j);
-  __builtin_prefetch(f + j, 1);
-  __builtin_prefetch(torque + j, 1);
-#endif
-}
-
 void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
 {
   int **firstneigh = list->firstneigh;
@@ -180,7 +216,8 @@ void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
     const int i = slice.touching[n].i, place = slice.touching[n].place;
     const FoundContact contact = {i, firstneigh[i][place] & NEIGHMASK, first_status[i] + place,
                                   first_history[i] + static_cast<std::ptrdiff_t>(size) * place};
-    prefetch(contact, particles, f, torque);
+    prefetch_written(contact.history);
+    prefetch_partner(contact.j, particles, f, torque);
     slice.contacts[n] = contact;
   }
   if (coefficient_classes.size() == 1) {
