@@ -9,7 +9,7 @@ import math
 import sys
 import tempfile
 import unittest
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +19,8 @@ sys.path.insert(0, str(STUDY))
 
 import run_strength  # noqa: E402
 from collapse import analysis, claims, curves, measured, plan  # noqa: E402
-from collapse import runs, specimens, statistics  # noqa: E402
+from collapse import runs, specimens, statistics, strength_figures  # noqa: E402
+from collapse.analysis import Row  # noqa: E402
 from collapse.measured import Cost  # noqa: E402
 from collapse.specimens import Confined, Material, Unconfined  # noqa: E402
 from collapse.statistics import Value  # noqa: E402
@@ -199,6 +200,24 @@ class Measured(unittest.TestCase):
         for wrong in (0.0, 1.0, 1.5):
             with self.assertRaisesRegex(ValueError, "porosity is"):
                 specimens.pull_off_force(100.0, 1e-3, wrong)
+
+
+class Figures(unittest.TestCase):
+    def test_deviations_of_a_size_that_is_not_crushed(self):
+        some = Value(1.0, 0.1)
+        of_type = {"Value": some, "float": 1.0, "int": 3, "str": "base"}
+
+        def row(**given):
+            values = {f.name: of_type.get(f.type, {}) for f in fields(Row)}
+            return Row(**{**values, "strain_rate": Confined.strain_rate, **given})
+        rows = [row(mode="scaled", diameter_mm=1.0, strength_deviation={96e3: some}),
+                row(mode="scaled", diameter_mm=2.0, strength_deviation={96e3: some}),
+                row(mode="unscaled", diameter_mm=1.25),
+                row(mode="unscaled", diameter_mm=2.0, strength_deviation={96e3: some})]
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "deviations.png"
+            strength_figures.deviations(rows, path)
+            self.assertGreater(path.stat().st_size, 1000)
 
 
 class Plan(unittest.TestCase):

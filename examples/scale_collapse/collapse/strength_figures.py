@@ -12,8 +12,8 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first: there m
 import numpy as np  # noqa: E402
 
 from . import curves as cv  # noqa: E402
-from .analysis import (FreeExponent, Group, Key, Row, StrengthPoint, flow_function,  # noqa: E402
-                       mean_crush, proportion_of)
+from .analysis import (NOTHING, FreeExponent, Group, Key, Row, StrengthPoint,  # noqa: E402
+                       flow_function, mean_crush, proportion_of)
 from .plan import BASE, Plan  # noqa: E402
 from .report import COLOURS, WIDTH  # noqa: E402
 from .specimens import Confined  # noqa: E402
@@ -141,7 +141,7 @@ def deviations(rows: Sequence[Row], path: Path) -> Path:
               ("bulk modulus (%)", lambda r: r.bulk_modulus_deviation)]
     if last is not None:
         panels.append((f"strength after {last / 1e3:g} kPa (%)",
-                       lambda r: r.strength_deviation[last]))
+                       lambda r: r.strength_deviation.get(last, NOTHING)))
     figure, axes = plt.subplots(1, len(panels), figsize=(4.0 * len(panels), 3.8),
                                 constrained_layout=True)
     for axis, (title, get) in zip(axes, panels):
