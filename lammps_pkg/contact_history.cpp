@@ -15,13 +15,13 @@ using namespace LAMMPS_NS;
 
 namespace {
 /// The name of LAMMPS's own fix: restart files say the same, whichever wrote them.
-constexpr const char *style_name = "NEIGH_HISTORY";
+constexpr const char *fix_style = "NEIGH_HISTORY";
 
 /// Has LAMMPS make its fix NEIGH_HISTORY with another constructor as long as it lives.
 class OtherCreator {
  public:
   OtherCreator(Modify *modify, Modify::FixCreator creator) :
-      current((*modify->fix_map)[style_name]), lammps_own(current)
+      current((*modify->fix_map)[fix_style]), lammps_own(current)
   {
     current = creator;
   }
@@ -52,7 +52,7 @@ ContactHistory *ContactHistory::replace(LAMMPS *lmp, const std::string &place_ho
   const OtherCreator creator(lmp->modify, &ContactHistory::make);
   // without a suffix: NEIGH_HISTORY/omp forgets contacts with ghosts with newton on
   auto *made = static_cast<ContactHistory *>(lmp->modify->replace_fix(
-      place_holder, fmt::format("{} all {} {}", id, style_name, values), 0));
+      place_holder, fmt::format("{} all {} {}", id, fix_style, values), 0));
   made->pair = contacts_of;
   return made;
 }

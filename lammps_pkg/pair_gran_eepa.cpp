@@ -183,14 +183,6 @@ void PairGranEepa::init_style()
   // an opening that falls on a rebuild must be booked, so such a contact outlives its end
   beyond_contact = keep_ledger ? 1 : 0;
 
-  choose_rolling();
-  init_history();
-  choose_law();
-  coefficient_classes.clear();    // init_one() is still to come
-}
-
-void PairGranEepa::choose_rolling()
-{
   // one rolling law serves all pairs of types: those without take part with mu_r = 0
   rolling = eepa::RollingModel::none;
   for (int i = 1; i <= atom->ntypes; i++) {
@@ -206,6 +198,9 @@ void PairGranEepa::choose_rolling()
       rolling = model;
     }
   }
+  init_history();
+  choose_law();
+  coefficient_classes.clear();    // init_one() is still to come
 }
 
 void PairGranEepa::init_history()
@@ -258,18 +253,20 @@ void PairGranEepa::init_radii()
 
 void PairGranEepa::warn_of_narrow_box()
 {
+  if (narrow_box_warned) return;
   const double largest = 2.0 *
       std::max(*std::max_element(max_radius_dynamic.begin(), max_radius_dynamic.end()),
                *std::max_element(max_radius_frozen.begin(), max_radius_frozen.end()));
   const int periodic[] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
   for (int dim = 0; dim < domain->dimension; dim++) {
-    if (!periodic[dim] || domain->prd[dim] >= 2.0 * largest || narrow_box_warned) continue;
+    if (!periodic[dim] || domain->prd[dim] >= 2.0 * largest) continue;
     narrow_box_warned = true;
     if (comm->me == 0)
       error->warning(FLERR,
                      "{}: the box is {} wide along {}, less than two of the largest diameters, {}: "
                      "LAMMPS keeps one history for two particles that touch through two images",
                      style_name, domain->prd[dim], "xyz"[dim], largest);
+    return;
   }
 }
 
@@ -421,16 +418,20 @@ void PairGranEepa::read_restart(FILE *fp)
 void PairGranEepa::write_restart_settings(FILE *fp)
 {
   write_numbers(eepa::pack(style), fp);
-  // without an init, as write_restart noinit may be before the first run, no rolling model is
-  // chosen yet, and the histories of a restart file are not taken up
+  double size = history_size();
   if (!fix_history) {
-    if (allocated) choose_rolling();
+    // as write_restart noinit before the first run has it: no rolling model is chosen yet, and the
+    // histories of a restart file are not taken up
+    const bool springs = std::any_of(parameters.begin(), parameters.end(), [](const auto &pair) {
+      return pair.rolling == eepa::RollingModel::sds;
+    });
+    size = springs ? eepa::SIZE_WITH_ROLLING : eepa::SIZE_WITHOUT_ROLLING;
+    // LAMMPS calls this on rank 0 only
     error->warning(FLERR,
                    "{}: the restart file has no histories of contacts, because there was neither a "
                    "run nor an init before it",
                    style_name);
   }
-  const double size = history_size();
   fwrite(&size, sizeof(double), 1, fp);
 }
 

@@ -149,7 +149,6 @@ class PairGranEepa : public Pair {
   void choose_law();
   void choose_single();
   void choose_classes();
-  void choose_rolling();
   void init_history();
   void init_radii();
   void warn_of_narrow_box();

@@ -31,6 +31,14 @@ std::vector<std::vector<double>> histories(const Simulation &simulation)
   return all;
 }
 
+/// Reads a restart file and sets up, without a step.
+void take_up(Simulation &restarted, const ScratchFile &file)
+{
+  restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
+  restarted.watch_contacts();
+  restarted.run(0);
+}
+
 class PackingRestart : public testing::TestWithParam<const char *> {};
 
 TEST_P(PackingRestart, GoesOnInMidUnloading)
@@ -47,10 +55,8 @@ TEST_P(PackingRestart, GoesOnInMidUnloading)
   original.run(200);
   original("write_restart " + file.name());
 
-  restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
-  restarted.watch_contacts();
+  take_up(restarted, file);
   original.run(0);
-  restarted.run(0);
   const auto a = histories(original), b = histories(restarted);
   ASSERT_GT(a.size(), 400u);
   ASSERT_EQ(a.size(), b.size());
@@ -89,9 +95,7 @@ TEST(Restart, KeepsTheHistoryToTheBit)
   const PairContact before = original.contacts().at(0);
   EXPECT_EQ(before.branch(), 2.0);
   EXPECT_GT(before.tangential().norm(), 0.0);
-  restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
-  restarted.watch_contacts();
-  restarted.run(0);
+  take_up(restarted, file);
   const PairContact after = restarted.contacts().at(0);
   EXPECT_EQ(before.max_overlap(), after.max_overlap());
   EXPECT_EQ(before.normal_force, after.normal_force);
@@ -131,13 +135,10 @@ TEST_P(ParallelOldListRestart, FindsThePartnersOfTheRunsEnd)
 
   for (const ScratchFile *file : {&after, &again, &amid}) {
     Simulation restarted;
-    restarted("read_restart " + file->name() + "\n" + restarted_box + integrate);
-    restarted.watch_contacts();
-    restarted.run(0);
+    take_up(restarted, *file);
     EXPECT_EQ(expected, histories(restarted)) << (file == &amid);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Newton, ParallelOldListRestart, testing::Values("on", "off"));
 
 // write_restart moves particles to where they belong; the neighbour list still has the old places.
 TEST_P(ParallelOldListRestart, IsNotFollowedByARunWithoutPreparation)
@@ -148,13 +149,11 @@ TEST_P(ParallelOldListRestart, IsNotFollowedByARunWithoutPreparation)
   original("write_restart " + file.name());
   // a run of no steps computes no force
   original("run 0 pre no post no\nwrite_restart " + second.name());
-  restarted("read_restart " + second.name() + "\n" + restarted_box + integrate);
+  take_up(restarted, second);
   Simulation expected;
-  expected("read_restart " + file.name() + "\n" + restarted_box + integrate);
-  for (Simulation *simulation : {&original, &restarted, &expected}) {
-    simulation->watch_contacts();
-    simulation->run(0);
-  }
+  take_up(expected, file);
+  original.watch_contacts();
+  original.run(0);
   ASSERT_GT(histories(expected).size(), 400u);
   EXPECT_EQ(histories(expected), histories(original));
   EXPECT_EQ(histories(expected), histories(restarted));
@@ -177,9 +176,7 @@ TEST_P(ParallelOldListRestart, OutlivesOtherPageSizes)
     changed.run(0);
     EXPECT_EQ(histories(usual), histories(changed)) << change;
     Simulation restarted;
-    restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
-    restarted.watch_contacts();
-    restarted.run(0);
+    take_up(restarted, file);
     EXPECT_EQ(histories(usual), histories(restarted)) << change;
   }
 }
@@ -197,14 +194,16 @@ TEST_P(ParallelOldListRestart, HasTheHistoriesOfAnInterruptedRun)
                       "run 100",
                       "halt"));
   stopped("unfix stop\nwrite_restart " + file.name());
-  restarted("read_restart " + file.name() + "\n" + restarted_box + integrate);
-  for (Simulation *simulation : {&whole, &stopped, &restarted}) {
+  take_up(restarted, file);
+  for (Simulation *simulation : {&whole, &stopped}) {
     simulation->watch_contacts();
     simulation->run(0);
   }
   EXPECT_EQ(histories(whole), histories(stopped));
   EXPECT_EQ(histories(whole), histories(restarted));
 }
+
+INSTANTIATE_TEST_SUITE_P(Newton, ParallelOldListRestart, testing::Values("on", "off"));
 
 // A particle with more contacts than LAMMPS leaves room for, when particles change processors.
 TEST(ParallelRestartOfRestart, TakesAllContactsOfAParticleAlong)
@@ -264,11 +263,9 @@ TEST(ParallelRestartOfRestart, IsWrittenAgainWithoutARunBetween)
   move_under_an_old_list(original, "on", 300);
   original("write_restart " + first.name());
   copied("read_restart " + first.name() + "\nwrite_restart " + second.name());
-  restarted("read_restart " + second.name() + "\n" + restarted_box + integrate);
-  for (Simulation *simulation : {&original, &restarted}) {
-    simulation->watch_contacts();
-    simulation->run(0);
-  }
+  take_up(restarted, second);
+  original.watch_contacts();
+  original.run(0);
   EXPECT_EQ(histories(original), histories(restarted));
 }
 
