@@ -57,8 +57,7 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
             parser.error("--fine-seeds goes with --full alone")
         arguments.study = plans.quick(arguments.seeds or 2)
     else:
-        seeds = arguments.seeds or 5
-        arguments.study = plans.full(seeds, arguments.fine_seeds or min(3, seeds))
+        arguments.study = plans.full(arguments.seeds or 5, arguments.fine_seeds)
     arguments.out = (arguments.out or build_folder()
                      / ("strength_quick" if arguments.quick else "strength")).resolve()
     return arguments

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Dict, List, Sequence, Tuple, Union
+from typing import Dict, List, Optional, Sequence, Tuple, Union
 
 from .cases import is_scaled
 from .specimens import Confined, Material, Unconfined, pull_off_force
@@ -97,15 +97,17 @@ class _Collector:
 BOTH = ("scaled", "unscaled")
 
 
-def full(seeds: int = 5, fine_seeds: int = 3, diameters: Sequence[float] = ()) -> Plan:
+def full(seeds: int = 5, fine_seeds: Optional[int] = None,
+         diameters: Sequence[float] = ()) -> Plan:
     """The study: specimens ten diameters of the largest particle wide.
 
-    :param fine_seeds: of diameters below 1.5 times the finest, which take most of the time
+    :param fine_seeds: of diameters below 1.5 times the finest, which take most of the time: 3, or
+        as many as of the others if that is less
     """
     sizes = tuple(sorted(diameters or (1.0e-3, 1.25e-3, 1.5e-3, 2.0e-3, 2.5e-3, 3.0e-3)))
     levels = (16.0e3, 36.0e3, 56.0e3, 76.0e3, 96.0e3)
     fine = [d for d in sizes if d < 1.5 * sizes[0]]
-    some = _Collector(levels, 30.0e-3, 32400, seeds, fine, fine_seeds)
+    some = _Collector(levels, 30.0e-3, 32400, seeds, fine, fine_seeds or min(3, seeds))
     coarse = [d for d in sizes if d in (1.5e-3, 2.0e-3, 3.0e-3)] or list(sizes)
     fitted = tuple(d for d in sizes if d >= 1.5e-3) or sizes[1:]
     slowed = coarse[len(coarse) // 2]
