@@ -9,6 +9,7 @@ from typing import Dict, Iterable, List
 
 _STAGE = re.compile(r"^Stage (\w+)\s*$")
 _LOOP = re.compile(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms")
+_CPU = re.compile(r"^(\S+)% CPU use with")
 _THERMO = re.compile(r"^\s*(\d+)(?:\s+-?[\d.]\S*){3,}\s*$")
 # Thermo lines of these stages do not count on from one to the next.
 _OWN_COUNT = "place"
@@ -16,9 +17,10 @@ _OWN_COUNT = "place"
 
 @dataclass
 class Stage:
-    """Loop time and steps of the runs between two `Stage` lines."""
+    """Loop time, processor time and steps of the runs between two `Stage` lines."""
 
     seconds: float = 0.0
+    cpu_seconds: float = 0.0
     steps: int = 0
 
 
@@ -34,6 +36,7 @@ class LogSummary:
 def summarise(lines: Iterable[str]) -> LogSummary:
     """Reads a log, one that is still being written as well."""
     summary = LogSummary()
+    last = 0.0
     for line in lines:
         stage = _STAGE.match(line)
         if stage:
@@ -44,9 +47,14 @@ def summarise(lines: Iterable[str]) -> LogSummary:
         loop = _LOOP.match(line)
         if loop:
             entry = summary.stages.setdefault(summary.current, Stage())
-            entry.seconds += float(loop.group(1))
+            last = float(loop.group(1))
+            entry.seconds += last
             entry.steps += int(loop.group(3))
             summary.particles = int(loop.group(4))
+            continue
+        cpu = _CPU.match(line)
+        if cpu:  # follows the loop time that it is a part of
+            summary.stages[summary.current].cpu_seconds += 0.01 * float(cpu.group(1)) * last
             continue
         thermo = _THERMO.match(line)
         if thermo:

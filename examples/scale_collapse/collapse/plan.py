@@ -12,6 +12,8 @@ Run = Union[Confined, Unconfined]
 
 #: At the reference diameter of 1 mm.
 BASE = Material("base")
+#: Its strength is carried by the pull-off force alone: that of a tensile strength of 4 kPa.
+PULL_OFF = Material("pull_off", kadh=0.0, f0=pull_off_force(4.0e3, 1.0e-3))
 COHESIONLESS = Material("cohesionless", kadh=0.0, f0=0.0)
 PLATEAU = Material("plateau", law="plateau")
 SETS = (Material("k1_10", k1=1.0e4),
@@ -31,9 +33,14 @@ def stiffer(material: Material, factor: float) -> Material:
 
 
 def stickier(material: Material, factor: float) -> Material:
-    """Both parts of the adhesion times factor."""
-    return replace(material, label=f"{material.label}_adhesion{factor:g}",
-                   kadh=factor * material.kadh, f0=factor * material.f0)
+    """Adhesive stiffness times factor."""
+    return replace(material, label=f"{material.label}_kadh{factor:g}",
+                   kadh=factor * material.kadh)
+
+
+def pulled_harder(material: Material, factor: float) -> Material:
+    """Pull-off force times factor."""
+    return replace(material, label=f"{material.label}_f0{factor:g}", f0=factor * material.f0)
 
 
 @dataclass(frozen=True)
@@ -43,8 +50,11 @@ class Plan:
     runs: Tuple[Run, ...]
     diameters: Tuple[float, ...]
     levels: Tuple[float, ...]
-    #: diameters of the fit of exponents, and that of the runs at half the speed
+    #: width of the specimens that are compared with each other
+    side: float
+    #: diameters of the fit of exponents, the finest of those for f0, and that of half the speed
     fitted: Tuple[float, ...]
+    pull_off_reference: float
     slowed: float
     quick: bool
 
@@ -72,24 +82,29 @@ class _Collector:
     def __init__(self, levels: Sequence[float], side: float, reference_particles: int,
                  seeds: int, fine: Sequence[float] = (), fine_seeds: int = 0) -> None:
         self.levels = tuple(levels)
-        self._shape: Dict = {"side": side, "reference_particles": reference_particles}
+        self.side, self._reference_particles = side, reference_particles
         self._seeds, self._fine, self._fine_seeds = seeds, tuple(fine), fine_seeds
         self.runs: List[Run] = []
 
     def add(self, material: Material, diameters: Sequence[float], modes: Sequence[str],
             crushed: Sequence[float], rate: float = Confined.strain_rate,
-            seeds: int = 0) -> None:
+            seeds: int = 0, width: float = 1.0, height: float = 1.0) -> None:
+        """:param width: of the specimen, over that of the others; likewise its height"""
+        shape: Dict = {"side": width * self.side, "reference_particles":
+                       round(self._reference_particles * width**2 * height)}
         for mode in modes:
             for diameter in diameters:
                 scaled = is_scaled(diameter, mode, Confined.reference_diameter)
-                count = self._fine_seeds if diameter in self._fine else self._seeds
+                # where they are as many as in the usual specimen
+                many = diameter in self._fine and width >= 1.0
+                count = self._fine_seeds if many else self._seeds
                 for seed in range(1, min(seeds or count, count) + 1):
                     one = Confined(material, diameter, scaled, seed, self.levels,
-                                   strain_rate=rate, **self._shape)
+                                   strain_rate=rate, **shape)
                     self.runs.append(one)
                     for level in crushed:
                         pictured = (seed == 1 and level == self.levels[-1] and scaled
-                                    and rate == Confined.strain_rate
+                                    and width == 1.0 and rate == Confined.strain_rate
                                     and material in (BASE, PLATEAU))
                         self.runs.append(Unconfined(one, level, pictured))
 
@@ -97,30 +112,37 @@ class _Collector:
 BOTH = ("scaled", "unscaled")
 
 
-def full(seeds: int = 5, fine_seeds: Optional[int] = None,
-         diameters: Sequence[float] = ()) -> Plan:
+def full(seeds: int = 5, fine_seeds: Optional[int] = None) -> Plan:
     """The study: specimens ten diameters of the largest particle wide.
 
     :param fine_seeds: of diameters below 1.5 times the finest, which take most of the time: 3, or
         as many as of the others if that is less
     """
-    sizes = tuple(sorted(diameters or (1.0e-3, 1.25e-3, 1.5e-3, 2.0e-3, 2.5e-3, 3.0e-3)))
+    sizes = (1.0e-3, 1.25e-3, 1.5e-3, 2.0e-3, 2.5e-3, 3.0e-3)
     levels = (16.0e3, 36.0e3, 56.0e3, 76.0e3, 96.0e3)
     fine = [d for d in sizes if d < 1.5 * sizes[0]]
     some = _Collector(levels, 30.0e-3, 32400, seeds, fine, fine_seeds or min(3, seeds))
-    coarse = [d for d in sizes if d in (1.5e-3, 2.0e-3, 3.0e-3)] or list(sizes)
-    fitted = tuple(d for d in sizes if d >= 1.5e-3) or sizes[1:]
-    slowed = coarse[len(coarse) // 2]
-    some.add(BASE, sizes, ("scaled",), levels)
-    # unscaled they are nearly the finest: their compression, but no strength, is worth the time
-    some.add(BASE, [d for d in fine if d > sizes[0]], ("unscaled",), ())
-    some.add(BASE, [d for d in sizes if d not in fine], ("unscaled",), levels)
-    some.add(COHESIONLESS, coarse, BOTH, ())
-    some.add(PLATEAU, coarse, BOTH, levels, seeds=3)
+    coarse = (1.5e-3, 2.0e-3, 3.0e-3)
+    fitted = tuple(d for d in sizes if d >= 2.0e-3)
+    slowed = coarse[1]
+    ends = (levels[0], levels[-1])
+    some.add(BASE, [d for d in sizes if d not in fine[1:]], ("scaled",), levels)
+    # what is crushed less is between sizes that are crushed after every level
+    some.add(BASE, fine[1:], ("scaled",), ends)
+    some.add(BASE, fine[1:], ("unscaled",), ())
+    some.add(BASE, coarse[:1], ("unscaled",), ends)
+    some.add(BASE, [d for d in sizes if d > coarse[0]], ("unscaled",), levels)
+    some.add(COHESIONLESS, sizes[:1], ("scaled",), (), seeds=2)
+    some.add(COHESIONLESS, coarse, ("scaled",), ())
+    some.add(COHESIONLESS, coarse[1:], ("unscaled",), ())
+    some.add(PLATEAU, coarse, ("scaled",), ends, seeds=3)
+    some.add(PLATEAU, coarse[1:], ("unscaled",), ends[1:], seeds=3)
     for material in SETS:
-        some.add(material, coarse, ("scaled",), (levels[1], levels[-1]), seeds=3)
-    _add_fits(some, fitted, slowed, seeds=3)
-    return Plan(tuple(dict.fromkeys(some.runs)), sizes, levels, fitted, slowed, False)
+        some.add(material, coarse, ("scaled",), ends, seeds=3)
+    _add_fits(some, fitted, coarse[0], slowed, seeds=3)
+    _add_sizes(some, sizes[0], coarse[1:], seeds=3)
+    return Plan(tuple(dict.fromkeys(some.runs)), sizes, levels, some.side, fitted, coarse[0],
+                slowed, False)
 
 
 def quick(seeds: int = 2) -> Plan:
@@ -131,21 +153,37 @@ def quick(seeds: int = 2) -> Plan:
     some.add(COHESIONLESS, sizes[1:], ("scaled",), ())
     some.add(PLATEAU, sizes[1:], ("scaled",), levels[-1:])
     some.add(SETS[0], sizes[1:], ("scaled",), levels[-1:], seeds=1)
-    _add_fits(some, sizes[1:], sizes[1], seeds=1)
-    return Plan(tuple(dict.fromkeys(some.runs)), sizes, levels, sizes[1:], sizes[1], True)
+    _add_fits(some, sizes[1:], sizes[0], sizes[1], seeds=1)
+    _add_sizes(some, sizes[0], sizes[1:], seeds=1)
+    return Plan(tuple(dict.fromkeys(some.runs)), sizes, levels, some.side, sizes[1:], sizes[0],
+                sizes[1], True)
 
 
-def _add_fits(some: _Collector, fitted: Sequence[float], slowed: float, seeds: int) -> None:
+def _add_fits(some: _Collector, fitted: Sequence[float], pull_off_reference: float,
+              slowed: float, seeds: int) -> None:
+    last = some.levels[-1:]
+    some.add(PULL_OFF, [pull_off_reference, *fitted], ("scaled",), last, seeds=seeds)
     for factor in FACTORS:
         some.add(stiffer(BASE, factor), fitted, ("scaled",), (), seeds=seeds)
-        some.add(stickier(BASE, factor), fitted, ("scaled",), some.levels[-1:], seeds=seeds)
-    some.add(BASE, [slowed], ("scaled",), some.levels[-1:], rate=0.5 * Confined.strain_rate,
-             seeds=seeds)
+        some.add(stickier(BASE, factor), fitted, ("scaled",), last, seeds=seeds)
+        some.add(pulled_harder(PULL_OFF, factor), fitted, ("scaled",), last, seeds=seeds)
+    some.add(BASE, [slowed], ("scaled",), last, rate=0.5 * Confined.strain_rate, seeds=seeds)
+
+
+def _add_sizes(some: _Collector, finest: float, coarse: Sequence[float], seeds: int) -> None:
+    """Is a deviation one of the diameter or of the number of particles across the specimen? The
+    finest particles in specimens as many diameters wide and high as those of the coarse ones, and
+    the coarsest in wider ones."""
+    for diameter in coarse:
+        similar = finest / diameter
+        some.add(BASE, [finest], ("scaled",), some.levels, width=similar, height=similar)
+    some.add(BASE, [coarse[-1]], ("scaled",), (some.levels[0], some.levels[-1]), seeds=seeds,
+             width=2.0)
 
 
 def describe(plan: Plan, jobs: int, particle_steps: float) -> str:
     """The plan as a table: what, how many, and about how long."""
-    lines = [f"{'parameters':<22}{'mode':<10}{'d (mm)':>7}{'particles':>11}{'seeds':>7}{'runs':>6}"
+    lines = [f"{'parameters':<24}{'mode':<10}{'d (mm)':>7}{'particles':>11}{'seeds':>7}{'runs':>6}"
              f"{'core-minutes':>14}"]
     groups: Dict[Tuple, List[Run]] = {}
     for run in plan.runs:
@@ -153,11 +191,13 @@ def describe(plan: Plan, jobs: int, particle_steps: float) -> str:
         label = one.material.label
         if one.strain_rate != Confined.strain_rate:
             label += f" {one.strain_rate:g}/s"
+        if one.side != plan.side:
+            label += f" {1e3 * one.side:g} mm wide"
         groups.setdefault((label, one.mode, one.diameter), []).append(run)
     for (label, mode, diameter), runs in groups.items():
         specimens = [run for run in runs if isinstance(run, Confined)]
         work = sum(run.particles * run.expected_steps() for run in runs)
-        lines.append(f"{label:<22}{mode:<10}{1e3 * diameter:>7g}{specimens[0].particles:>11}"
+        lines.append(f"{label:<24}{mode:<10}{1e3 * diameter:>7g}{specimens[0].particles:>11}"
                      f"{len(specimens):>7}{len(runs):>6}{work / particle_steps / 60.0:>14.1f}")
     seconds = plan.work / particle_steps
     lines += ["", f"{len(plan.runs)} runs, about {seconds / 3600.0:.2f} core-hours at "

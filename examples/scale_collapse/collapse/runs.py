@@ -17,6 +17,7 @@ from typing import Dict, Iterator, List, Optional, Sequence, Tuple
 from .cases import Case, folder_of
 from .logs import LogSummary, summarise_file, tail
 from .progress import Progress
+from .versions import commit, lammps
 
 MARKER = "done.json"
 LOG = "log.lammps"
@@ -140,6 +141,7 @@ class Runner:
         self._jobs = jobs
         self._progress = progress
         self._active: List[_Active] = []
+        self._versions: Dict[str, str] = {}
 
     def run(self, cases: Sequence[Case], redo: bool = False, poll_seconds: float = 0.25) -> None:
         """Runs what is not there yet.
@@ -159,6 +161,9 @@ class Runner:
                 waiting.append((case, fingerprint))
         order = {case: place for place, case in enumerate(cases)}
         waiting.sort(key=lambda entry: order[entry[0]])
+        # As they are now: whoever commits meanwhile does not change what is under way.
+        self._versions = ({"commit": commit(), "lammps": lammps(self._launcher.lmp)} if waiting
+                          else {})
         self._progress.begin()
         try:
             with _deferred_signals() as received:
@@ -228,6 +233,7 @@ class Runner:
             "case": asdict(active.case),
             "ranks": self._launcher.ranks,
             "jobs": self._jobs,
+            **self._versions,
             "command": self._launcher.command(active.case, final),
             "particles": summary.particles,
             "stages": {name: asdict(stage) for name, stage in summary.stages.items()},

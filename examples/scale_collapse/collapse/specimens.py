@@ -15,7 +15,7 @@ from .cases import DENSITY, LAWS, fingerprint_of, require_positive
 POROSITY = 0.4
 #: Of a packing and its contacts, only to foresee how long a run will be: strains of packing and of
 #: crushing to the end, steps of the bath.
-PACKING_STRAIN, CRUSHING_STRAIN, RELAXING_STEPS = 0.06, 0.045, 2000
+PACKING_STRAIN, CRUSHING_STRAIN, RELAXING_STEPS = 0.06, 0.03, 2000
 #: As in.confined has them: s, and parts of the strain rate up to the first level and of crushing.
 HOLD, FIRST, CRUSHING = 0.01, 0.4, 0.6
 PACKING_STRESS = 4.0e3
@@ -102,12 +102,15 @@ class Confined:
         text = f"{self.material.label}_d{self.diameter * 1e3:.6g}mm_{self.mode}"
         if self.strain_rate != Confined.strain_rate:
             text += f"_rate{self.strain_rate:g}"
+        if self.side != Confined.side:
+            text += f"_{1e3 * self.side:g}mm_wide"
         return f"{text}_seed{self.seed}_confined"
 
     @property
     def kind(self) -> Tuple:
         """Runs of a kind take about as many steps."""
-        return self.infile, self.diameter, self.scaled, self.material.label, self.strain_rate
+        return (self.infile, self.diameter, self.scaled, self.material.label, self.strain_rate,
+                self.side)
 
     @property
     def particles(self) -> int:
