@@ -19,6 +19,7 @@ from run_study import build_folder, cores  # noqa: E402  (says what Python lacks
 
 from collapse.cases import LAWS  # noqa: E402
 from collapse.command import exit_status  # noqa: E402
+from collapse.measured import strength_of  # noqa: E402
 from collapse.progress import Progress, in_words  # noqa: E402
 from collapse.runs import Launcher, Runner, find_lmp  # noqa: E402
 from collapse.specimens import (POROSITY, Confined, Material,  # noqa: E402
@@ -43,9 +44,14 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
     fit.add_argument("--porosity-stress", type=Path, required=True, metavar="CSV",
                      help="its porosity: columns stress (Pa), porosity")
     fit.add_argument("--unconfined", type=Path, default=None, metavar="CSV",
-                     help="crushing after the highest stress: columns strain, stress (Pa); its "
-                          "largest stress is taken. Confined curves alone say little about "
-                          "adhesion")
+                     help="crushing after the highest stress: columns strain, stress (Pa), of "
+                          "which the strength is read as of the runs. Confined curves alone say "
+                          "little about adhesion")
+    fit.add_argument("--strength", type=float, default=None, metavar="PA",
+                     help="unconfined strength, instead of --unconfined; of several tests the mean "
+                          "of their strengths, which is more than that of their mean curve")
+    fit.add_argument("--strength-error", type=float, default=0.0, metavar="PA",
+                     help="its standard error")
     fit.add_argument("--diameter", type=float, required=True, metavar="M",
                      help="of the coarse particles")
     fit.add_argument("--free", nargs="+", default=["k1", "kadh"], metavar="NAME",
@@ -83,6 +89,10 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
         for name in ("seeds", "steps", "jobs", "particles"):
             if getattr(arguments, name) < 1:
                 parser.error(f"--{name} is {getattr(arguments, name)}, allowed is 1 or more")
+        if arguments.strength is not None and arguments.unconfined is not None:
+            parser.error("--strength and --unconfined both give the strength: name one of them")
+        if arguments.strength_error < 0.0:
+            parser.error(f"--strength-error is {arguments.strength_error:g}, allowed is 0 or more")
         if arguments.tensile is not None and "f0" in arguments.free:
             parser.error("--tensile gives f0, so it can not be free")
         arguments.out = (arguments.out or build_folder() / "calibrate").resolve()
@@ -103,13 +113,15 @@ def fit(arguments: argparse.Namespace) -> int:
         sys.exit(f"{sys.executable} has no {missing.name}; on Debian: "
                  f"apt-get install python3-scipy and /usr/bin/python3 {sys.argv[0]}")
     lmp = find_lmp(arguments.lmp, [build_folder() / "lmp"])
-    strength = None
+    strength = arguments.strength
     if arguments.unconfined is not None:
-        strength = float(calibration.read_curve(arguments.unconfined, "strain", "stress")[1].max())
+        strength = strength_of(*calibration.read_curve(arguments.unconfined, "strain", "stress"))[0]
+    stress, strain = calibration.read_curve(arguments.stress_strain, "stress", "strain")
     target = calibration.target_from(
-        *calibration.read_curve(arguments.stress_strain, "strain", "stress"),
-        *calibration.read_curve(arguments.porosity_stress, "stress", "porosity"),
-        arguments.preload, strength)
+        strain, stress, *calibration.read_curve(arguments.porosity_stress, "stress", "porosity"),
+        arguments.preload, strength,
+        calibration.read_error(arguments.stress_strain, "stress", "strain"),
+        arguments.strength_error)
     level = arguments.level or round(float(target.stress[-1]), 3)
     f0 = (arguments.f0 if arguments.tensile is None
           else pull_off_force(arguments.tensile, arguments.dref))

@@ -16,9 +16,11 @@ sys.path.insert(0, str(HERE))
 from run_study import build_folder, cores  # noqa: E402  (says what Python lacks)
 
 from collapse import plan as plans  # noqa: E402
+from collapse.cases import folder_of  # noqa: E402
 from collapse.command import exit_status  # noqa: E402
 from collapse.progress import Progress  # noqa: E402
-from collapse.runs import Launcher, Runner, find_lmp, measured_speed  # noqa: E402
+from collapse.runs import (Launcher, Runner, find_lmp, is_complete,  # noqa: E402
+                           measured_speed)
 
 
 def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace:
@@ -72,19 +74,20 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.plan:
         return
     arguments.out.mkdir(parents=True, exist_ok=True)
+    launcher = Launcher(lmp, HERE / "in.confined", arguments.mpirun)
     if not arguments.report:
-        launcher = Launcher(lmp, HERE / "in.confined", arguments.mpirun)
         runs = study.sorted_runs()
         Runner(launcher, arguments.out, arguments.jobs,
                Progress(runs, arguments.jobs)).run(runs, arguments.redo)
     from collapse import strength_report
     print()
-    print(strength_report.write(study, arguments.out, lmp))
+    print(strength_report.write(study, arguments.out, lmp, lambda run: is_complete(
+        folder_of(arguments.out, run), launcher.fingerprint(run))))
 
 
 def main(words: Optional[Sequence[str]] = None) -> int:
     arguments = parse_arguments(words)
-    return exit_status("run_strength.py", lambda: run(arguments))
+    return exit_status("run_strength.py", lambda: run(arguments), ValueError)
 
 
 if __name__ == "__main__":

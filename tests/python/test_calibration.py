@@ -9,6 +9,7 @@ import math
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -75,6 +76,18 @@ class Fit(unittest.TestCase):
         self.assertTrue(math.isnan(calibration.fit(START, ["k1"], Model(target(7.0e3)))
                                    .errors["k1"]))
 
+    def test_error_has_those_of_the_target(self):
+        # Strain goes as 1/k1, strength as kadh^0.8 k1^0.1: so do their errors.
+        wanted = target(7.0e3, strength_of(Material("truth", k1=7.0e3)))
+        exact = calibration.fit(START, ["k1", "kadh"], Model(wanted, (0.0, 0.0)))
+        self.assertAlmostEqual(exact.errors["k1"], 0.0, delta=1e-6)
+        rough = replace(wanted, strain_error=0.03 * wanted.strain,
+                        strength_error=0.04 * wanted.strength)
+        found = calibration.fit(START, ["k1", "kadh"], Model(rough, (0.0, 0.0)))
+        # porosity, which is taken as exact, holds k1 as well
+        self.assertAlmostEqual(found.errors["k1"], 0.015, delta=0.002)
+        self.assertAlmostEqual(found.errors["kadh"], 0.05, delta=0.004)
+
     def test_parameter_that_the_target_does_not_know_has_no_error(self):
         found = calibration.fit(START, ["k1", "mu"], Model(target(6.0e3), (-0.01, 0.01)))
         self.assertTrue(math.isnan(found.errors["mu"]))
@@ -126,6 +139,14 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no column porosity"):
             calibration.read_curve(path, "stress", "porosity")
 
+    def test_errors_are_read_where_there_are_any(self):
+        path = self.folder / "a.csv"
+        path.write_text("stress,strain,strain_error\n2,0.02,0.004\n1,0.01,0.002\n",
+                        encoding="utf-8")
+        self.assertEqual(list(calibration.read_error(path, "stress", "strain")), [0.002, 0.004])
+        path.write_text("stress,strain,strain_error\n2,0.02,\n1,0.01,\n", encoding="utf-8")
+        self.assertIsNone(calibration.read_error(path, "stress", "strain"))
+
     def test_include_file_is_what_in_confined_reads(self):
         found = calibration.fit(START, ["k1"], Model(target(7.0e3), (-0.01, 0.02)))
         text = calibration.include_file(found, 1.0e-3, "a test")
@@ -147,6 +168,8 @@ class Files(unittest.TestCase):
         common = ["fit", "--diameter", "3e-3", "--stress-strain", str(self.folder / "none.csv"),
                   "--porosity-stress", "b.csv"]
         for words, text in ((["--seeds", "0"], "--seeds is 0"),
+                            (["--strength", "1e4", "--unconfined", "c.csv"], "name one of them"),
+                            (["--strength-error", "-1"], "--strength-error is -1"),
                             (["--free", "f0", "--tensile", "100"], "it can not be free")):
             said = io.StringIO()
             with contextlib.redirect_stderr(said), self.assertRaises(SystemExit):

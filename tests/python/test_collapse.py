@@ -108,6 +108,28 @@ class Curves(unittest.TestCase):
         self.assertAlmostEqual(result.percent, 0.0, places=9)
         self.assertLess(result.up_to, 0.02)
 
+    def test_mean_deviation_has_a_sign_and_pairs_the_error_of_their_differences(self):
+        grid = np.linspace(0.0, 1.0, 11)
+        pairs = [(level * grid - 2.0, level * grid) for level in (90.0, 110.0)]
+        result = curves.paired_deviation(pairs, grid)
+        self.assertAlmostEqual(result.percent, 2.0)
+        self.assertAlmostEqual(result.mean_percent, -2.0)
+        self.assertAlmostEqual(result.standard_error, 0.0)
+        apart = curves.deviation(*(curves.mean_of(grid, some) for some in zip(*pairs)))
+        self.assertAlmostEqual(apart.percent, 2.0)
+        self.assertAlmostEqual(apart.mean_percent, -2.0)
+        self.assertGreater(apart.standard_error, 1.0)
+
+    def test_unloading_begins_after_the_hold(self):
+        table = samples(straight(3.0e6))
+        first = np.flatnonzero(table["stage"] == "unload")[0]
+        held = np.repeat(table[first - 1:first], 5)
+        held["stage"], held["bulk_strain"] = "hold", np.linspace(0.0301, 0.0305, 5)
+        both = curves.curve_from_samples(np.concatenate([table[:first], held, table[first:]]),
+                                         5.0e3)
+        self.assertAlmostEqual(both.unloading.strain["bulk"][0] - both.loading.strain["bulk"][-1],
+                               0.0005, delta=2e-5)
+
     def test_mean_and_standard_error_of_seeds(self):
         some = [curve(m) for m in (2.0e6, 3.0e6, 4.0e6)]
         mean = curves.mean_stress(some, "platen", 0.03)
@@ -219,6 +241,8 @@ Loop time of 0.5 on 1 procs for 2000 steps with 625 atoms
 Stage pack
 Loop time of 1e-06 on 1 procs for 0 steps with 625 atoms
 Loop time of 1.5 on 1 procs for 9000 steps with 625 atoms
+
+90.0% CPU use with 1 MPI tasks x 1 OpenMP threads
 Stage load
      12000   0.02   -3.5e2   0.40   0.37   5.1   0.001
 Loop time of 2.0 on 1 procs for 15000 steps with 625 atoms
@@ -232,6 +256,7 @@ class Logs(unittest.TestCase):
         self.assertFalse(summary.finished)
         self.assertEqual(summary.stages["pack"].steps, 9000)
         self.assertAlmostEqual(summary.stages["pack"].seconds, 1.500001)
+        self.assertAlmostEqual(summary.stages["pack"].cpu_seconds, 0.9 * 1.5)
         self.assertTrue(logs.summarise((LOG + "Stage done\n").splitlines()).finished)
 
     def test_command_echo_is_no_stage(self):

@@ -43,6 +43,9 @@ class Target:
     porosity: np.ndarray
     #: unconfined strength after the highest level
     strength: Optional[float] = None
+    #: standard errors of strain (as of the whole curve at once) and strength, where they are known
+    strain_error: Optional[np.ndarray] = None
+    strength_error: float = 0.0
 
     def __post_init__(self) -> None:
         if len(self.strain) < 3 or len(self.porosity) < 3:
@@ -66,8 +69,19 @@ def read_curve(path: Path, x: str, y: str) -> Tuple[np.ndarray, np.ndarray]:
     return table[x][good][order], table[y][good][order]
 
 
+def read_error(path: Path, x: str, y: str) -> Optional[np.ndarray]:
+    """The column y_error in the order of read_curve, if the file has one that is finite."""
+    try:
+        error = read_curve(path, x, f"{y}_error")[1]
+    except ValueError:
+        return None
+    return error if len(error) == len(read_curve(path, x, y)[1]) else None
+
+
 def target_from(strain: np.ndarray, stress: np.ndarray, porosity_stress: np.ndarray,
-                porosity: np.ndarray, preload: float, strength: Optional[float]) -> Target:
+                porosity: np.ndarray, preload: float, strength: Optional[float],
+                strain_error: Optional[np.ndarray] = None,
+                strength_error: float = 0.0) -> Target:
     """Cuts the curves at the preload and counts strain from there."""
     if not stress[0] <= preload < stress[-1]:
         raise ValueError(f"the target's stress goes from {stress[0]:g} to {stress[-1]:g} Pa, it "
@@ -77,7 +91,9 @@ def target_from(strain: np.ndarray, stress: np.ndarray, porosity_stress: np.ndar
     part = porosity_stress >= preload
     return Target(preload, np.concatenate([[0.0], (strain[above] - first) / (1.0 - first)]),
                   np.concatenate([[preload], stress[above]]), porosity_stress[part],
-                  porosity[part], strength)
+                  porosity[part], strength,
+                  None if strain_error is None else np.concatenate([[0.0], strain_error[above]]),
+                  strength_error)
 
 
 @dataclass(frozen=True)
@@ -87,6 +103,8 @@ class Residual:
 
     values: np.ndarray
     porosity_offset: float
+    #: what values change by when the target's strain, or its strength, does by its standard error
+    of_target: Tuple[np.ndarray, ...] = ()
 
 
 def residual(target: Target, curve: cv.Curve, strength: Optional[float]) -> Residual:
@@ -97,6 +115,10 @@ def residual(target: Target, curve: cv.Curve, strength: Optional[float]) -> Resi
     wanted = np.interp(grid, target.stress, target.strain)
     found = cv.interpolate(grid, curve.loading.stress, curve.loading.strain["bulk"])
     parts = [(found - wanted) / wanted[-1] / math.sqrt(POINTS)]
+    shifts = []
+    if target.strain_error is not None:
+        shifts.append(np.interp(grid, target.stress, target.strain_error)
+                      / wanted[-1] / math.sqrt(POINTS))
     low = max(target.preload, float(target.porosity_stress[0]))
     grid = np.linspace(low, min(top, float(target.porosity_stress[-1])), POINTS)
     wanted = np.interp(grid, target.porosity_stress, target.porosity)
@@ -109,14 +131,19 @@ def residual(target: Target, curve: cv.Curve, strength: Optional[float]) -> Resi
     if target.strength is not None:
         assert strength is not None
         parts.append(np.array([math.log(strength / target.strength)]))
-    return Residual(np.concatenate(parts), offset)
+        shifts.append(np.array([target.strength_error / target.strength]))
+    values = np.concatenate(parts)
+    # strain comes first, strength last
+    padded = [np.concatenate([shift, np.zeros(len(values) - len(shift))] if len(shift) > 1 else
+                             [np.zeros(len(values) - 1), shift]) for shift in shifts]
+    return Residual(values, offset, tuple(padded))
 
 
 @dataclass
 class Fit:
     material: Material
     free: Tuple[str, ...]
-    #: of each free parameter, relative: from the scatter of the packings
+    #: of each free parameter, relative: from the scatter of the packings and the target's errors
     errors: Dict[str, float]
     #: root mean square residual, and porosity less that of the target at the lowest stress
     distance: float
@@ -189,22 +216,25 @@ def fit(start: Material, free: Sequence[str], simulate: Simulate, most: int = 12
                            bounds=(-REACH, REACH), max_nfev=most, xtol=1e-3, ftol=1e-3)
     packings = known[tuple(result.x)]
     return Fit(with_parameters(start, free, result.x), free,
-               packing_errors(packings, jacobian(result.x), free),
+               parameter_errors(packings, jacobian(result.x), free),
                float(np.linalg.norm(mean_of(packings))),
                float(np.mean([r.porosity_offset for r in packings])), len(known),
                str(result.message), history)
 
 
-def packing_errors(packings: Sequence[Residual], jacobian: np.ndarray,
-                   free: Sequence[str]) -> Dict[str, float]:
-    """Relative standard error of each parameter: that of the mean over packings of what each of
-    them alone would ask for, to first order. Not known for a single packing, nor where the target
-    does not depend on a parameter."""
+def parameter_errors(packings: Sequence[Residual], jacobian: np.ndarray,
+                     free: Sequence[str]) -> Dict[str, float]:
+    """Relative standard error of each parameter, to first order: that of the mean over packings of
+    what each of them alone would ask for, and what the standard errors of the target would change.
+    Not known for a single packing, nor where the target does not depend on a parameter."""
     if len(packings) < 2 or np.linalg.matrix_rank(jacobian) < len(free):
         return {name: math.nan for name in free}
     inverse = np.linalg.pinv(jacobian)
     wanted = np.array([-inverse @ r.values for r in packings])
-    error = wanted.std(axis=0, ddof=1) / math.sqrt(len(packings))
+    square = wanted.var(axis=0, ddof=1) / len(packings)
+    for shift in packings[0].of_target:
+        square += (inverse @ shift) ** 2
+    error = np.sqrt(square)
     return dict(zip(free, map(float, error)))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Sequence
+from typing import Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -33,6 +33,8 @@ class Branch:
     bulk_porosity: np.ndarray
     porosity: np.ndarray
     coordination: np.ndarray
+    #: of the grains two diameters and more away from both platens, where it was measured
+    bulk_coordination: Optional[np.ndarray] = None
 
     def __len__(self) -> int:
         return len(self.stress)
@@ -90,11 +92,14 @@ def curve_from_samples(samples: np.ndarray, preload: float, name: str = "curve")
             return np.concatenate([[at_preload(values)] if len(first) else [], values[rows]])
         return Branch({kind: column(values) for kind, values in strains.items()}, column(stress),
                       column(samples["bulk_porosity"]), column(samples["porosity"]),
-                      column(samples["coordination"]))
+                      column(samples["coordination"]),
+                      column(samples["bulk_coordination"])
+                      if "bulk_coordination" in samples.dtype.names else None)
 
     loading = branch(load[load > last], [last])
-    # Unloading begins where loading ended: its first sample comes a little after the reversal.
-    unloading = branch(np.concatenate([load[-1:], unload]), [])
+    # Unloading begins with the last sample before it, of loading or of the hold after that: its own
+    # first sample comes a little after the reversal.
+    unloading = branch(np.concatenate([unload[:1] - 1, unload]), [])
     height = samples["height"][load]
     return Curve(loading, unloading, at_preload(samples["porosity"]),
                  at_preload(samples["bulk_porosity"]), at_preload(samples["coordination"]),
@@ -186,22 +191,35 @@ def common_recovery(groups: Sequence[Sequence[Curve]], strain: str) -> float:
 
 @dataclass(frozen=True)
 class Deviation:
-    """Root mean square distance of one mean curve from another over their common range, and the
-    standard error from the seeds of both, in % of the peak stress there."""
+    """Root mean square distance of one mean curve from another over their common range, the
+    standard error from the seeds of both, and the mean distance (negative where the curve lies
+    below), in % of the peak stress there."""
 
     percent: float
     standard_error: float
     up_to: float
+    mean_percent: float
 
 
 def deviation(mean: Mean, reference: Mean) -> Deviation:
+    return _deviation(mean.value - reference.value, np.hypot(mean.error, reference.error),
+                      reference)
+
+
+def paired_deviation(pairs: Sequence[Tuple[np.ndarray, np.ndarray]], grid: np.ndarray) -> Deviation:
+    """The same of tests of the same packings: pairs of values on the grid, the second one the
+    reference. The error is that of the mean of the pairs' differences."""
+    apart = mean_of(grid, [one - reference for one, reference in pairs])
+    return _deviation(apart.value, apart.error, mean_of(grid, [reference for _, reference in pairs]))
+
+
+def _deviation(apart: np.ndarray, error: np.ndarray, reference: Mean) -> Deviation:
     peak = float(np.max(np.abs(reference.value)))
     if not peak > 0.0:
         raise ValueError(f"peak stress of the reference is {peak:g}, allowed is a number above 0")
-    apart = mean.value - reference.value
-    error = np.hypot(mean.error, reference.error)
     return Deviation(100.0 * root_mean_square(apart) / peak,
-                     100.0 * root_mean_square(error) / peak, float(reference.grid[-1]))
+                     100.0 * root_mean_square(error) / peak, float(reference.grid[-1]),
+                     100.0 * float(np.mean(apart)) / peak)
 
 
 def loading_deviation(curves: Sequence[Curve], reference: Sequence[Curve],

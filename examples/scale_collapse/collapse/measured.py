@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Mapping
+from typing import Mapping, Tuple
 
 import numpy as np
 
@@ -17,16 +17,19 @@ from .statistics import slope
 UNLOAD = "unload.csv"
 #: Part of unloading that moduli are taken from: stress over that at its beginning.
 ELASTIC = (0.5, 0.95)
-#: Samples that the strength is a running mean over: one lasts 2e-4 of strain.
+#: Samples of the running mean that finds the peak of crushing: one lasts 2e-4 of strain.
 SMOOTHED = 5
+#: Part of that peak from which on samples make the parabola whose vertex is the strength.
+NEAR_PEAK = 0.9
 #: Stages that make a specimen rather than test it.
 MAKING = ("start", "place", "relax", "pack")
 
 
 @dataclass(frozen=True)
 class Moduli:
-    """On unloading, per strain of the bulk, which is all axial: that of axial stress (constrained
-    modulus), that of mean stress (bulk modulus), Pa; lateral over axial stress before it."""
+    """On unloading, per strain of the bulk, which is all axial and counts from the beginning of
+    unloading: that of axial stress (constrained modulus), that of mean stress (bulk modulus), Pa;
+    lateral over axial stress before it."""
 
     constrained: float
     bulk: float
@@ -55,14 +58,16 @@ class UnconfinedResult:
     porosity: float
     coordination: float
     pull_off: float
+    #: coordination number of the unloaded specimen, before its sides were cut free
+    uncut_coordination: float
     inertial_number: float
     cost: "Cost"
 
 
 @dataclass(frozen=True)
 class Cost:
-    """Loop time of LAMMPS, s, and steps: of the whole run (the placing of points has no steps)
-    and of the test alone, without the making of the specimen."""
+    """Processor time of LAMMPS's loops, s, and steps: of the whole run (the placing of points has
+    no steps) and of the test alone, without the making of the specimen."""
 
     particles: int
     seconds: float
@@ -74,9 +79,9 @@ class Cost:
     def from_marker(marker: Mapping) -> "Cost":
         stages = marker["stages"]
         test = [s for name, s in stages.items() if name not in MAKING]
-        return Cost(marker["particles"], sum(s["seconds"] for s in stages.values()),
+        return Cost(marker["particles"], sum(s["cpu_seconds"] for s in stages.values()),
                     sum(s["steps"] for name, s in stages.items() if name != "place"),
-                    sum(s["seconds"] for s in test), sum(s["steps"] for s in test))
+                    sum(s["cpu_seconds"] for s in test), sum(s["steps"] for s in test))
 
 
 def axial_stress(samples: np.ndarray) -> np.ndarray:
@@ -103,9 +108,32 @@ def moduli_of(samples: np.ndarray, name: str = "curve") -> Moduli:
     if np.count_nonzero(part) < 3:
         raise BadCurve(f"{name}: unloading has {np.count_nonzero(part)} samples between "
                        f"{ELASTIC[0]:g} and {ELASTIC[1]:g} of its first stress, needed are 3")
-    strain = unload["bulk_strain"]
+    strain = unload["bulk_strain"] / (1.0 - unload["bulk_strain"][0])
     return Moduli(slope(strain[part], axial[part]).value, slope(strain[part], mean[part]).value,
                   float((unload["stress_x"][0] + unload["stress_y"][0]) / (2.0 * axial[0])))
+
+
+def strength_of(strain: np.ndarray, stress: np.ndarray) -> Tuple[float, float]:
+    """Largest stress of crushing and its strain: the vertex of the parabola of least squares
+    through the samples around the peak. The largest sample, or mean of a few, would be above it
+    by what they scatter, which is more the coarser the particles are."""
+    smooth = running_mean(stress, SMOOTHED)
+    rough = int(np.argmax(smooth))
+    far = np.flatnonzero(smooth < NEAR_PEAK * smooth[rough])
+    first = int(far[far < rough].max(initial=-1)) + 1
+    last = int(far[far > rough].min(initial=len(stress)))
+    x, y = strain[first:last], stress[first:last]
+    if len(x) < SMOOTHED:
+        return float(smooth[rough]), float(strain[rough])
+    middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])
+    parabola = np.polynomial.Polynomial.fit(x, y, 2, domain=[x[0], x[-1]])
+    constant, linear, square = parabola.coef
+    if square < 0.0 and abs(linear) <= -2.0 * square:
+        vertex = -linear / (2.0 * square)
+        return float(constant - linear**2 / (4.0 * square)), float(middle + half * vertex)
+    # no vertex among the samples: it did not fail, or did so before the first of them
+    end = 0 if parabola(x[0]) > parabola(x[-1]) else -1
+    return float(parabola(x[end])), float(x[end])
 
 
 def inertial_number(diameter: float, strain_rate: np.ndarray, stress: np.ndarray) -> np.ndarray:
@@ -146,16 +174,17 @@ def unconfined_from(unload: np.ndarray, crush: np.ndarray, run: Unconfined, cost
     before = free[-1]
     strain = 1.0 - crushed["height"] / before["height"]
     stress = axial_stress(crushed)
-    smooth = running_mean(stress, SMOOTHED)
-    peak = int(np.argmax(smooth))
+    strength, strain_at_peak = strength_of(strain, stress)
+    peak = int(np.argmin(np.abs(strain - strain_at_peak)))
     material: Material = run.specimen.material
     pull_off = material.pull_off(float(before["plastic_overlap"]), run.specimen.size)
     return UnconfinedResult(
-        strain, stress, float(smooth[peak]), float(strain[peak]),
+        strain, stress, strength, strain_at_peak,
         float(crushed["coordination"][peak]), moduli_of(unload, name),
         float(before["bulk_porosity"]), float(before["coordination"]), pull_off,
-        float(inertial_number(run.diameter, np.array(run.crushing_rate),
-                              np.array(smooth[peak]))), cost)
+        float(unload["coordination"][-1]),
+        float(inertial_number(run.diameter, np.array(run.crushing_rate), np.array(strength))),
+        cost)
 
 
 def load_confined(folder: Path, specimen: Confined, preload: float) -> ConfinedResult:

@@ -43,6 +43,11 @@ def pulled_harder(material: Material, factor: float) -> Material:
     return replace(material, label=f"{material.label}_f0{factor:g}", f0=factor * material.f0)
 
 
+#: What the fits need beside the materials that they are of.
+VARIED = tuple(vary(material, factor) for material, vary in (
+    (BASE, stiffer), (BASE, stickier), (PULL_OFF, pulled_harder)) for factor in FACTORS)
+
+
 @dataclass(frozen=True)
 class Plan:
     """What is run, in order of appearance; a run that two purposes share is there once."""

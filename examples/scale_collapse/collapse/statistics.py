@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Optional, Sequence
+from typing import Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -28,6 +28,19 @@ def ratio_percent(one: Value, reference: Value) -> Value:
     ratio = one.value / reference.value
     error = np.hypot(one.error / reference.value, ratio * reference.error / reference.value)
     return Value(100.0 * (ratio - 1.0), float(100.0 * error))
+
+
+def ratio_of_means(ones: Sequence[float], references: Sequence[float]) -> Value:
+    """Mean of some numbers over the mean of others, independent of them."""
+    percent = ratio_percent(value_of(ones), value_of(references))
+    return Value(1.0 + 0.01 * percent.value, 0.01 * percent.error)
+
+
+def paired_percent(ones: Mapping[int, float], references: Mapping[int, float]) -> Value:
+    """How far some numbers are from others of the same packings (by seed), in % of those: the
+    mean over the packings that both have, and its error."""
+    return value_of([100.0 * (one / references[seed] - 1.0) for seed, one in ones.items()
+                     if seed in references])
 
 
 def scatter_percent(mean: Mean) -> float:
@@ -75,19 +88,15 @@ def exponent_from_reference(sizes: Sequence[float], logs: Sequence[float],
     return Value(value, float(error))
 
 
-def best_factor(factors: Sequence[float], responses: Sequence[Value], target: float) -> Value:
-    """log of the factor at which the response is the target, on a straight line through
-    log(response) over log(factor), and its error from those of the responses."""
-    x, y = np.log(factors), np.log([r.value for r in responses])
-    line = slope(x, y)
-    if line.value == 0.0:
+def best_factor(factors: Sequence[float], responses: Sequence[float],
+                target: float) -> Tuple[float, float]:
+    """log of the factor at which the response is the target, on the straight line of least squares
+    through log(response) over log(factor), and the slope of that line."""
+    x, y = np.log(factors), np.log(responses)
+    line = slope(x, y).value
+    if line == 0.0:
         raise ValueError("the response does not depend on the factor")
-    log_factor = float(x.mean() + (np.log(target) - y.mean()) / line.value)
-    # Of the line at log_factor, sum of weights of independent points.
-    apart = x - x.mean()
-    weights = 1.0 / len(x) + (log_factor - x.mean()) * apart / (apart @ apart)
-    relative = np.array([r.error / r.value for r in responses])
-    return Value(log_factor, float(np.sqrt(np.sum((weights * relative) ** 2)) / abs(line.value)))
+    return float(x.mean() + (np.log(target) - y.mean()) / line), line
 
 
 @dataclass(frozen=True)

@@ -12,11 +12,11 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first: there m
 import numpy as np  # noqa: E402
 
 from . import curves as cv  # noqa: E402
-from .analysis import (NOTHING, FreeExponent, Group, Key, Row, StrengthPoint,  # noqa: E402
-                       flow_function, mean_crush, proportion_of)
-from .plan import BASE, Plan  # noqa: E402
+from .analysis import NOTHING, Row  # noqa: E402
+from .fits import FreeExponent, StrengthPoint, flow_function, proportion_of  # noqa: E402
+from .groups import Group, Key, mean_crush  # noqa: E402
+from .plan import BASE  # noqa: E402
 from .report import COLOURS, WIDTH  # noqa: E402
-from .specimens import Confined  # noqa: E402
 
 MODES = ("scaled", "unscaled")
 
@@ -31,16 +31,16 @@ def _save(figure: plt.Figure, path: Path) -> Path:
 
 def _of(groups: Dict[Key, Group], material: str, mode: str) -> List[Group]:
     """The groups of a figure's column, by diameter; the finest one stands in every column."""
-    same = [g for g in groups.values() if g.material.label == material
-            and g.strain_rate == Confined.strain_rate]
-    finest = min((g for g in same if g.mode == "scaled"), key=lambda g: g.diameter)
+    same = [g for g in groups.values() if g.material.label == material and not g.special]
+    finest = min((g for g in same if g.mode == "scaled"), default=None, key=lambda g: g.diameter)
     return sorted({id(g): g for g in same if g.mode == mode or g is finest}.values(),
                   key=lambda g: (g.diameter, g is not finest))
 
 
 def _modes(groups: Dict[Key, Group], material: str) -> List[str]:
     return [mode for mode in MODES if any(
-        g.material.label == material and g.mode == mode for g in groups.values())]
+        g.material.label == material and g.mode == mode and not g.special
+        for g in groups.values())]
 
 
 def _errors(errors: Sequence[float], factor: float = 1.0) -> Optional[List[float]]:
@@ -108,7 +108,7 @@ def unconfined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
             if not group.unconfined:
                 continue
             colour, level = _colour(groups, group, mode), max(group.unconfined)
-            mean = mean_crush(group.unconfined[level])
+            mean = mean_crush(group.crushed(level))
             crush.plot(100.0 * mean.grid, mean.value / 1e3, color=colour,
                        label=_label(group, mode))
             crush.fill_between(100.0 * mean.grid, (mean.value - mean.error) / 1e3,
@@ -132,8 +132,7 @@ def unconfined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
 def deviations(rows: Sequence[Row], path: Path) -> Path:
     """Deviation from the finest particles over their relative size, of everything that shall
     collapse."""
-    base = [r for r in rows if r.material == BASE.label
-            and r.strain_rate == Confined.strain_rate]
+    base = [r for r in rows if r.material == BASE.label and r.usual]
     finest = min(r.diameter_mm for r in base if r.mode == "scaled")
     last = max((level for r in base for level in r.strength_deviation), default=None)
     panels = [("stress-strain curve, RMS (% of peak)", lambda r: r.loading_deviation),
@@ -180,12 +179,33 @@ def micromechanics(points: Sequence[StrengthPoint], path: Path) -> Path:
     return _save(figure, path)
 
 
-def exponents(found: Sequence[FreeExponent], plan: Plan, path: Path) -> Path:
+def sizes(rows: Sequence[Row], path: Path) -> Path:
+    """Strength after the last level and coordination number over the width of the specimen in
+    diameters: does the diameter matter, or the number of particles across?"""
+    figure, axes = plt.subplots(1, 2, figsize=(10.0, 4.0), constrained_layout=True)
+    last = max(level for r in rows for level in r.strength)
+    for k, size in enumerate(sorted({r.diameter_mm for r in rows})):
+        some = sorted((r for r in rows if r.diameter_mm == size), key=lambda r: r.width_mm)
+        across = [r.width_mm / size for r in some]
+        for axis, values, factor in ((axes[0], [r.strength.get(last, NOTHING) for r in some], 1e-3),
+                                     (axes[1], [r.coordination for r in some], 1.0)):
+            axis.errorbar(across, [factor * v.value for v in values],
+                          _errors([v.error for v in values], factor), marker="osD^v<"[k % 6],
+                          capsize=3, color=COLOURS[k % len(COLOURS)], label=f"{size:g} mm")
+    axes[0].set_ylabel(f"unconfined strength after {last / 1e3:g} kPa (kPa)")
+    axes[1].set_ylabel("coordination number before unloading")
+    for axis in axes:
+        axis.set_xlabel("width of the specimen over d")
+        axis.legend(fontsize=8, frameon=False)
+    return _save(figure, path)
+
+
+def exponents(found: Sequence[FreeExponent], path: Path) -> Path:
     """Best coefficients over diameter, with the fitted and the law's exponent."""
     figure, axes = plt.subplots(1, len(found), figsize=(5.0 * len(found), 4.0), squeeze=False,
                                 constrained_layout=True)
     for axis, one in zip(axes[0], found):
-        ratio = np.array(one.diameters) / plan.diameters[0]
+        ratio = np.array(one.diameters) / one.reference_diameter
         values = np.exp([v.value for v in one.logs])
         errors = _errors(values * np.array([v.error for v in one.logs]))
         axis.errorbar(ratio, values, errors, marker="o", linestyle="none", capsize=3,
@@ -195,25 +215,28 @@ def exponents(found: Sequence[FreeExponent], plan: Plan, path: Path) -> Path:
                   label=f"fit: exponent {one.exponent.value:.2f}")
         axis.plot(reach, reach**one.expected, "--", color="black", linewidth=0.8,
                   label=f"scaling law: {one.expected:g}")
-        axis.set(xscale="log", yscale="log", xlabel="d over that of the finest",
-                 ylabel=f"best {one.what} over that of the finest")
+        axis.set(xscale="log", yscale="log",
+                 xlabel=f"d over {1e3 * one.reference_diameter:g} mm",
+                 ylabel=f"best {one.what} over that of {1e3 * one.reference_diameter:g} mm")
         axis.legend(fontsize=8, frameon=False)
     return _save(figure, path)
 
 
 def speed(rows: Sequence[Row], path: Path) -> Path:
     """Speed-up of the confined test over relative diameter, beside (d/d_finest)^4."""
-    base = [r for r in rows if r.material == BASE.label
-            and r.strain_rate == Confined.strain_rate]
+    base = [r for r in rows if r.material == BASE.label and r.usual]
     finest = min(r.diameter_mm for r in base if r.mode == "scaled")
     figure, axis = plt.subplots(figsize=(5.5, 4.2), constrained_layout=True)
     for mode, colour in zip(MODES, ("#0072B2", "#D55E00")):
         some = sorted((r for r in base if r.mode == mode or r.diameter_mm == finest),
                       key=lambda r: r.diameter_mm)
-        sizes = [r.diameter_mm / finest for r in some]
-        axis.plot(sizes, [r.speed_up for r in some], "o-", color=colour, label=mode)
-        axis.plot(sizes, [r.whole_speed_up for r in some], "o:", markersize=3, color=colour,
-                  label=f"{mode}, whole run")
+        ratios = [r.diameter_mm / finest for r in some]
+        for get, line, size, label in ((lambda r: r.speed_up, "o-", 6, mode),
+                                       (lambda r: r.whole_speed_up, "o:", 3,
+                                        f"{mode}, whole run")):
+            axis.errorbar(ratios, [get(r).value for r in some],
+                          _errors([get(r).error for r in some]), fmt=line, markersize=size,
+                          capsize=2, color=colour, label=label)
     reach = np.linspace(1.0, max(r.diameter_mm for r in base) / finest, 50)
     axis.plot(reach, reach**4, "--", color="black", linewidth=0.8, label="(d/d finest)$^4$")
     axis.set(xscale="log", yscale="log", xlabel="d over that of the finest",

@@ -2,60 +2,77 @@
 """The report of the study of strength: tables, figures, curves as CSV, and one HTML page."""
 from __future__ import annotations
 
-import csv
-import math
-import os
 import platform
-import subprocess
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Sequence, Tuple
+from typing import Callable, Dict, List, Sequence, Tuple
 
 import matplotlib
 import numpy
 
-from . import curves as cv
 from . import strength_figures as figures
-from .analysis import (FreeExponent, Group, Key, Row, flow_function, free_exponents,
-                       group_results, make_rows, mean_crush, proportion_of, speed_exponent,
-                       strength_points)
+from . import versions
+from .analysis import Row, Similar, make_rows, similar_specimens
 from .cases import folder_of
 from .claims import claims
+from .fits import (FreeExponent, flow_function, free_exponents, proportion_of, speed_exponent,
+                   strength_points)
+from .groups import Group, Key, group_results
 from .html import Page
-from .plan import Plan
+from .plan import BASE, VARIED, Plan, Run
+from .runs import read_marker
 from .specimens import Confined, Unconfined
-from .statistics import Value
+from .strength_tables import HEADER, cells, with_error, write_curves, write_table
 
-VALUES = ("loading_deviation", "unloading_deviation", "porosity", "coordination",
-          "coordination_deviation", "strain", "constrained_modulus", "bulk_modulus",
-          "bulk_modulus_deviation", "lateral_ratio")
+@dataclass(frozen=True)
+class Study:
+    """What the report is on."""
+
+    plan: Plan
+    out: Path
+    groups: Dict[Key, Group]
+    rows: List[Row]
+    fits: List[FreeExponent]
+    similar: List[Similar]
+    #: how many runs of the plan are not finished, or are of other in-files or another LAMMPS
+    missing: int
 
 
-def write(plan: Plan, out: Path, lmp: Path) -> str:
-    """Writes everything into `out` and returns the text for the terminal."""
-    groups = group_results(plan, out)
-    rows = make_rows(groups, plan)
-    fits = free_exponents(groups, plan)
-    write_table(rows, plan.levels, out / "strength.csv")
+def write(plan: Plan, out: Path, lmp: Path, finished: Callable[[Run], bool]) -> str:
+    """Writes everything into `out` and returns the text for the terminal.
+
+    :param finished: whether a run is there, of just these in-files and this LAMMPS
+    :raise ValueError: when there is nothing to report on
+    """
+    done = {run: finished(run) for run in plan.runs}
+    groups = group_results(plan, out, done.__getitem__)
+    if not any(g.material == BASE and g.mode == "scaled" and not g.special
+               for g in groups.values()):
+        raise ValueError(f"{out}: no finished run of the base material by these in-files and this "
+                         "LAMMPS, so there is nothing to report on")
+    study = Study(plan, out, groups, make_rows(groups, plan), free_exponents(groups, plan),
+                  similar_specimens(groups, plan), sum(not there for there in done.values()))
+    write_table(study.rows, plan.levels, out / "strength.csv")
     write_curves(groups, out / "curves")
-    written = _figures(groups, rows, fits, plan, out)
-    summary = _summary(groups, rows, fits, plan)
+    written = _figures(study)
+    summary = _summary(study)
     (out / "summary.txt").write_text(summary, encoding="utf-8")
     page = Page("Scaling of an elasto-plastic adhesive contact law: confined and unconfined "
                 "compression")
     if plan.quick:
         page.paragraph("QUICK MODE: tiny specimens that try the machinery. The figures below are "
                        "measured, but mean nothing for the scaling.")
-    _fill(page, plan, out, lmp, groups, rows, summary, written)
+    _fill(page, study, lmp, written)
     page.write(out / "report.html")
     return (summary + f"\nReport:  {out / 'report.html'}\nFigures: {out}\nTables:  "
             f"{out / 'strength.csv'}, {out / 'curves'}")
 
 
-def _figures(groups: Dict[Key, Group], rows: Sequence[Row], fits: Sequence[FreeExponent],
-             plan: Plan, out: Path) -> List[Tuple[Path, str]]:
-    written = []
-    materials = [m for m in dict.fromkeys(g.material.label for g in groups.values())
-                 if "_stiffness" not in m and "_adhesion" not in m]
+def _figures(study: Study) -> List[Tuple[Path, str]]:
+    groups, out, written = study.groups, study.out, []
+    # those of the fits differ from another one in a factor only
+    materials = dict.fromkeys(g.material.label for g in groups.values() if not g.special
+                              and g.material not in VARIED)
     for material in materials:
         written.append((figures.confined(groups, material, out / f"confined_{material}.png"),
                         f"Confined compression, {material}: mean over seeds with its standard "
@@ -64,165 +81,95 @@ def _figures(groups: Dict[Key, Group], rows: Sequence[Row], fits: Sequence[FreeE
             written.append((figures.unconfined(groups, material,
                                                out / f"unconfined_{material}.png"),
                             f"Unconfined compression and flow function, {material}"))
-    written += [
-        (figures.deviations(rows, out / "deviations.png"),
-         "Deviation from the finest particles with its standard error"),
-        (figures.exponents(fits, plan, out / "exponents.png"),
-         "Stiffness and adhesion that fit the finest particles best, each left free alone"),
-        (figures.micromechanics(strength_points(groups), out / "micromechanics.png"),
-         "Strength over the mean pull-off force of the contacts against coordination number and "
-         "solid fraction (Thakur et al., Granular Matter 16 (2014) 383)"),
-        (figures.speed(rows, out / "speed.png"),
-         "Speed-up of the confined test, without and with the making of the specimen")]
+    written.append((figures.deviations(study.rows, out / "deviations.png"),
+                    "Deviation from the finest particles with its standard error"))
+    sizes = [r for r in study.rows if r.material == BASE.label and r.mode == "scaled"
+             and r.strain_rate == Confined.strain_rate and r.strength]
+    if any(not r.usual for r in sizes):
+        written.append((figures.sizes(sizes, out / "sizes.png"),
+                        "Strength and coordination number over the width of the specimen in "
+                        "diameters"))
+    if study.fits:
+        written.append((figures.exponents(study.fits, out / "exponents.png"),
+                        "Coefficients that fit the finest particles best, each left free alone"))
+    points = strength_points(groups)
+    if points:
+        written.append((figures.micromechanics(points, out / "micromechanics.png"),
+                        "Strength over the mean pull-off force of the contacts against "
+                        "coordination number and solid fraction (Thakur et al., Granular Matter "
+                        "16 (2014) 383)"))
+    written.append((figures.speed(study.rows, out / "speed.png"),
+                    "Speed-up of the confined test, without and with the making of the specimen"))
     return written
 
 
-def with_error(value: Value, digits: int, factor: float = 1.0) -> str:
-    """Without the error where a single seed gives none; empty where there is no value."""
-    if not math.isfinite(value.value):
-        return ""
-    text = f"{factor * value.value:.{digits}f}"
-    return (f"{text} ± {factor * value.error:.{digits}f}" if math.isfinite(value.error) else text)
-
-
-HEADER = ["material", "mode", "strain rate (1/s)", "d (mm)", "particles", "seeds",
-          "inertial number", "loading (% of peak)", "scatter of seeds (%)", "unloading (%)",
-          "strain (%)", "porosity", "Z", "Z off (%)", "modulus (MPa)", "bulk modulus (MPa)",
-          "K off (%)", "lateral ratio", "strength (kPa)", "strength off (%)", "steps", "s",
-          "speed-up", "whole run, s", "speed-up", "(d/d0)^4"]
-
-
-def cells(row: Row) -> List[str]:
-    last = max(row.strength, default=None)
-    strength = row.strength.get(last) if last else None
-    off = row.strength_deviation.get(last) if last else None
-    return [row.material, row.mode, f"{row.strain_rate:g}", f"{row.diameter_mm:g}",
-            str(row.particles), str(row.seeds), f"{row.inertial_number:.1e}",
-            with_error(row.loading_deviation, 2),
-            f"{row.loading_scatter:.2f}" if math.isfinite(row.loading_scatter) else "",
-            with_error(row.unloading_deviation, 2), with_error(row.strain, 3, 100.0),
-            with_error(row.porosity, 4), with_error(row.coordination, 3),
-            with_error(row.coordination_deviation, 2),
-            with_error(row.constrained_modulus, 2, 1e-6), with_error(row.bulk_modulus, 2, 1e-6),
-            with_error(row.bulk_modulus_deviation, 1), with_error(row.lateral_ratio, 3),
-            with_error(strength, 2, 1e-3) if strength else "",
-            with_error(off, 1) if off else "", f"{row.steps:.0f}", f"{row.seconds:.2f}",
-            f"{row.speed_up:.1f}", f"{row.whole_seconds:.2f}", f"{row.whole_speed_up:.1f}",
-            f"{row.expected_speed_up:.1f}"]
-
-
-def write_table(rows: Sequence[Row], levels: Sequence[float], path: Path) -> None:
-    """Every row and value; SI units, deviations in %."""
-    plain = ["material", "mode", "strain_rate", "diameter_mm", "particles", "seeds",
-             "inertial_number", "loading_scatter", "steps", "seconds", "speed_up",
-             "whole_steps", "whole_seconds", "whole_speed_up", "expected_speed_up"]
-    names = plain + [f"{name}{end}" for name in VALUES for end in ("", "_error")]
-    for level in levels:
-        names += [f"{name}_{level / 1e3:g}kPa{end}" for name in ("strength", "strength_deviation")
-                  for end in ("", "_error")]
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(names)
-        for row in rows:
-            line = [_plain(getattr(row, name)) for name in plain]
-            for name in VALUES:
-                line += _both(getattr(row, name))
-            nothing = Value(math.nan, math.nan)
-            for level in levels:
-                line += _both(row.strength.get(level, nothing))
-                line += _both(row.strength_deviation.get(level, nothing))
-            writer.writerow(line)
-
-
-def _both(value: Value) -> List[object]:
-    return [_plain(value.value), _plain(value.error)]
-
-
-def _plain(value: object) -> object:
-    if not isinstance(value, float):
-        return value
-    return f"{value:.6g}" if math.isfinite(value) else ""
-
-
-def write_curves(groups: Dict[Key, Group], folder: Path) -> None:
-    """Mean and standard error over seeds of every curve, a file for each group and test."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for (material, mode, diameter, rate), group in groups.items():
-        name = f"{material}_{mode}_d{1e3 * diameter:g}mm_rate{rate:g}"
-        for branch in ("loading", "unloading"):
-            means = {quantity: cv.mean_at_stress(group.curves, branch, quantity)
-                     for quantity in ("bulk", "bulk_porosity", "coordination")}
-            _write_means(folder / f"{name}_{branch}.csv", "stress", means,
-                         {"bulk": "strain", "bulk_porosity": "porosity"})
-        for level, results in group.unconfined.items():
-            _write_means(folder / f"{name}_crush_{level / 1e3:g}kPa.csv", "strain",
-                         {"stress": mean_crush(results)}, {})
-
-
-def _write_means(path: Path, grid: str, means: Dict[str, cv.Mean], rename: Dict[str, str]) -> None:
-    names, columns = [grid], [next(iter(means.values())).grid]
-    for quantity, mean in means.items():
-        name = rename.get(quantity, quantity)
-        names += [name, f"{name}_error"]
-        columns += [mean.value, mean.error]
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(names)
-        for line in zip(*columns):
-            writer.writerow([_plain(float(value)) for value in line])
-
-
-def _summary(groups: Dict[Key, Group], rows: Sequence[Row], fits: Sequence[FreeExponent],
-             plan: Plan) -> str:
+def _summary(study: Study) -> str:
     lines = []
-    found = claims(rows)
-    width = max(len(c.what) for c in found)
-    for claim in found:
-        lines.append(f"{claim.what:<{width}}  {claim.limit:>9}  {claim.measured:>18}  "
-                     f"{claim.verdict}")
+    if study.missing:
+        lines += [f"{study.missing} of {len(study.plan.runs)} runs are not there, or are of other "
+                  "in-files or another LAMMPS: the figures are without them", ""]
+    lines += _in_columns([[c.what, c.limit, c.measured, c.verdict] for c in claims(study.rows)])
+    if study.similar:
+        lines += ["", "As many particles in specimens as many diameters wide and high, coarse "
+                      "beside fine:"]
+    for one in study.similar:
+        strengths = ", ".join(f"{with_error(value, 2)}% after {level / 1e3:g} kPa"
+                              for level, value in one.strength_deviation.items())
+        lines.append(f"{one.diameter_mm:g} mm in {one.width_mm:g} mm, {one.fine_mm:g} mm in "
+                     f"{one.fine_width_mm:g} mm, {one.seeds} and {one.fine_seeds} packings: curve "
+                     f"{with_error(one.loading_deviation, 2)}% of peak, Z "
+                     f"{with_error(one.coordination_deviation, 2)}%, strength {strengths}")
     lines.append("")
-    for fit in fits:
-        lines.append(f"exponent of {fit.what} against d, left free to match {fit.response}: "
-                     f"{with_error(fit.exponent, 3)} (scaling law: {fit.expected:g})")
-    for row in rows:
-        if row.strain_rate != Confined.strain_rate:
-            lines.append(f"strain rate {row.strain_rate:g}/s, not {Confined.strain_rate:g}/s, "
-                         f"same packings of {row.diameter_mm:g} mm: curve "
-                         f"{with_error(row.loading_deviation, 2)}% of peak, strength "
-                         + ", ".join(f"{with_error(value, 1)}% after {level / 1e3:g} kPa"
-                                     for level, value in row.strength_deviation.items()))
-    for group in groups.values():
+    for fit in study.fits:
+        lines.append(f"exponent of {fit.what} against d, left free to match {fit.response} of "
+                     f"{1e3 * fit.reference_diameter:g} mm: {with_error(fit.exponent, 3)} "
+                     f"(scaling law: {fit.expected:g})")
+    ends = (study.plan.diameters[0], study.plan.diameters[-1])
+    for group in study.groups.values():
         flow = flow_function(group)
-        if flow.slope is not None and group.diameter in (plan.diameters[0], plan.diameters[-1]):
+        if flow.slope is not None and not group.special and group.diameter in ends:
             lines.append(f"flow function, {group.material.label} {group.mode} "
-                         f"{1e3 * group.diameter:g} mm: strength rises by {flow.slope:.3f} of the "
-                         "consolidation stress")
-    points = strength_points(groups)
-    line = proportion_of(points)
-    free = f", exponent {with_error(line.exponent, 2)} when free" if line.exponent else ""
-    lines.append(f"sigma_u d^2/f_at = {line.constant:.4f} Z (1 - n), {line.scatter_percent:.1f}% "
-                 f"scatter over {len(points)} points{free}")
+                         f"{1e3 * group.diameter:g} mm: strength rises by "
+                         f"{with_error(flow.slope, 4)} of the consolidation stress")
+    points = strength_points(study.groups)
+    if points:
+        line = proportion_of(points)
+        free = f", exponent {with_error(line.exponent, 2)} when free" if line.exponent else ""
+        span = [p.packing.value for p in points]
+        lines.append(f"sigma_u d^2/f_at = {line.constant:.4f} Z (1 - n), "
+                     f"{line.scatter_percent:.1f}% scatter over {len(points)} points{free}; Z "
+                     f"(1 - n) goes from {min(span):.2f} to {max(span):.2f} only")
     for mode in ("scaled", "unscaled"):
-        speed = speed_exponent(rows, mode)
+        speed = speed_exponent(study.groups, mode)
         if speed:
-            lines.append(f"wall time of the confined test, {mode}: d^-{with_error(speed, 2)}")
+            lines.append(f"processor time of the confined test, {mode}: d^-{with_error(speed, 2)}")
     return "\n".join(lines) + "\n"
 
 
-def _fill(page: Page, plan: Plan, out: Path, lmp: Path, groups: Dict[Key, Group],
-          rows: Sequence[Row], summary: str, written: Sequence[Tuple[Path, str]]) -> None:
+def _in_columns(table: Sequence[Sequence[str]]) -> List[str]:
+    widths = [max(len(line[k]) for line in table) for k in range(len(table[0]))] if table else []
+    return ["  ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip()
+            for line in table]
+
+
+def _fill(page: Page, study: Study, lmp: Path, written: Sequence[Tuple[Path, str]]) -> None:
+    plan, out = study.plan, study.out
     page.heading("What was to be shown")
     page.table(["", "limit", "measured", "met"],
-               [[c.what, c.limit, c.measured, c.verdict] for c in claims(rows)])
-    page.preformatted(summary)
+               [[c.what, c.limit, c.measured, c.verdict] for c in claims(study.rows)])
+    page.preformatted(_summary(study))
+    page.heading("How it was measured")
+    for text in METHOD:
+        page.paragraph(text)
     page.heading("Every group of runs")
-    page.paragraph("Deviations are from the finest scaled particles of the same material (at "
-                   "another strain rate: from the same packings at the usual one); ± is "
-                   "the standard error over seeds. Strain, porosity, Z are those at 90% of "
-                   "the last level; moduli, lateral ratio are those of unloading from it; "
-                   "strength is that after it. Steps, seconds and speed-up are of the confined "
-                   "test, and of the whole run with the making of the specimen.")
-    page.table(HEADER, [cells(row) for row in rows])
+    page.paragraph("Deviations are from the finest scaled particles of the same material, named in "
+                   "the column `reference` (at another strain rate: from the same packings at the "
+                   "usual one, seed by seed); ± is the standard error over seeds. Strain, "
+                   "porosity, Z are those at 90% of the last level; moduli, lateral ratio are "
+                   "those of unloading from it; strength and crushing are those after it. Steps, "
+                   "seconds (of processor time) and speed-up are of the confined test, and of the "
+                   "whole run with the making of the specimen.")
+    page.table(HEADER, [cells(row) for row in study.rows])
     page.heading("Figures")
     for path, caption in written:
         page.picture(path, caption)
@@ -231,13 +178,14 @@ def _fill(page: Page, plan: Plan, out: Path, lmp: Path, groups: Dict[Key, Group]
                    "stress: blue in tension, red in compression, 50 kPa at full colour.")
     for run in plan.runs:
         if isinstance(run, Unconfined) and run.images:
-            pair = [next(iter(sorted(folder_of(out, run).glob(f"{stage}.*.png"))))
+            pair = [next(iter(sorted(folder_of(out, run).glob(f"{stage}.*.png"))), None)
                     for stage in ("free", "crush")]
             what = (f"{run.specimen.material.label}, {1e3 * run.diameter:g} mm, after "
                     f"{run.level / 1e3:g} kPa")
-            page.pair(pair, [f"{what}: before", f"{what}: after failure"])
+            if all(pair):
+                page.pair(pair, [f"{what}: before", f"{what}: after failure"])
     page.heading("Parameters")
-    materials = {g.material.label: g.material for g in groups.values()}
+    materials = {g.material.label: g.material for g in study.groups.values()}
     page.table(["material", "law", "k1 (N/m)", "k2 (N/m)", "k_adh (N/m)", "f0 (N)", "mu"],
                [[m.label, m.law, f"{m.k1:g}", f"{m.k2:g}", f"{m.kadh:g}", f"{m.f0:.6g}",
                  f"{m.mu:g}"] for m in materials.values()])
@@ -245,41 +193,48 @@ def _fill(page: Page, plan: Plan, out: Path, lmp: Path, groups: Dict[Key, Group]
     page.paragraph(f"At the reference diameter of {1e3 * one.reference_diameter:g} mm. Specimen "
                    f"{1e3 * one.side:g} mm wide with {one.reference_particles} particles of that "
                    f"diameter; levels {', '.join(f'{level / 1e3:g}' for level in plan.levels)} "
-                   "kPa. Rolling friction, restitution, density: see in.confined.")
+                   "kPa. Density 2000 kg/m3, restitution 0.3, rolling friction 0.001 (constant).")
     page.heading("Versions and machine")
-    page.preformatted(versions(lmp))
+    page.preformatted(_versions(study, lmp))
 
 
-def versions(lmp: Path) -> str:
-    """Of what made the report."""
-    root = Path(__file__).resolve().parents[3]
+METHOD = (
+    "Specimen: random points pushed apart, packed between rough platens at 4 kPa without friction "
+    "and adhesion; periodic sides. Confined compression by a platen as heavy as the packing that a "
+    "pressure drives, at a strain rate of about 0.5/s (0.4 of that up to the first level); every "
+    "level is held for 10 ms. Strain is that of the grains two diameters and more away from the "
+    "platens and counts from 5 kPa. The specimen is unloaded from the last level.",
+    "Unconfined: each level is unloaded, left for 10 ms, its periodic sides are opened (contacts "
+    "across them are gone), left for 10 ms and crushed at 0.3/s to 75% of the peak stress or beyond. "
+    "The upper platen is held where it came to rest, so that crushing starts within about 1 kPa "
+    "of zero. Stress is force over the cross-section before crushing, and so is the porosity in "
+    "the files of crushing. Strength is the vertex of the parabola through the samples around the "
+    "peak, above 90% of it.",
+    "Moduli: rise of axial and of mean stress over strain between 95% and 50% of the stress that "
+    "unloading began at. Inertial number: strain rate times d times sqrt(density/stress), the "
+    "largest on loading. Deviation of a curve: root mean square distance from the reference's mean "
+    "over the strain that both have, in % of its peak stress.",
+    "Z counts contacts between particles for both and contacts with a platen for one, of all "
+    "particles; Z of the bulk is of the grains two diameters and more away from the platens.",
+    "Exponents: at each coarse diameter a coefficient is multiplied by 0.8 and 1.25 on top of the "
+    "scaling law; seed by seed, the factor that gives the finest particles' mean response is read "
+    "off a line through the logarithms, and over diameters makes an exponent. k_adh is varied in "
+    "the base material, f0 in one without k_adh.")
 
-    def said(*words: str) -> str:
-        try:
-            return subprocess.run(words, text=True, capture_output=True, timeout=60, check=True,
-                                  cwd=root).stdout
-        except (OSError, subprocess.SubprocessError):
-            return ""
 
-    lammps = next((line.strip() for line in said(str(lmp), "-h").splitlines()
-                   if "Discrete Particle" not in line and "LAMMPS" in line or
-                   line.startswith("Large-scale")), "unknown")
+def _versions(study: Study, lmp: Path) -> str:
+    """Of the runs, and of what made the report."""
+    markers = [read_marker(folder_of(study.out, run)) for run in study.plan.runs
+               if (folder_of(study.out, run) / "done.json").is_file()]
+
+    def noted(name: str) -> str:
+        return ", ".join(sorted({str(marker.get(name, "unknown")) for marker in markers}))
+
     return "\n".join([
-        f"commit      {said('git', 'rev-parse', 'HEAD').strip() or 'unknown'}"
-        f"{' with changes' if said('git', 'status', '--porcelain').strip() else ''}",
-        f"LAMMPS      {lammps}",
+        f"runs        commit {noted('commit')}; {noted('lammps')}; {noted('ranks')} rank each, "
+        f"{noted('jobs')} at once",
+        f"report      commit {versions.commit()}; {versions.lammps(lmp)}",
         f"Python      {platform.python_version()}, NumPy {numpy.__version__}, Matplotlib "
         f"{matplotlib.__version__}",
-        f"machine     {platform.machine()}, {_processor()}, {os.cpu_count()} cores, "
-        f"{platform.system()} {platform.release()}",
-        f"Open MPI    {next(iter(said('mpirun', '--version').splitlines()), 'unknown')}"])
-
-
-def _processor() -> str:
-    try:
-        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
-            if line.startswith("model name"):
-                return line.split(":", 1)[1].strip()
-    except OSError:
-        pass
-    return platform.processor() or "unknown processor"
+        f"machine     {versions.machine()}",
+        f"Open MPI    {versions.mpi()}"])

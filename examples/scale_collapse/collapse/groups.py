@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""The results of finished runs by group: every seed of one material, diameter, mode, strain rate
+and width of the specimen."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Callable, Dict, List, Sequence, Tuple
+
+import numpy as np
+
+from . import curves as cv
+from .cases import folder_of
+from .measured import ConfinedResult, Cost, UnconfinedResult, load_confined, load_unconfined
+from .plan import Plan, Run
+from .specimens import Confined, Material, Unconfined
+from .statistics import Value, ratio_of_means, value_of
+
+PRELOAD = 5.0e3
+#: Material's label, mode, diameter, and what is special (see Group).
+Key = Tuple[str, str, float, str]
+
+
+@dataclass
+class Group:
+    """Results by seed."""
+
+    material: Material
+    diameter: float
+    mode: str
+    #: nothing for the specimens that are compared with each other; what makes others not so
+    special: str = ""
+    strain_rate: float = Confined.strain_rate
+    side: float = Confined.side
+    confined: Dict[int, ConfinedResult] = field(default_factory=dict)
+    unconfined: Dict[float, Dict[int, UnconfinedResult]] = field(default_factory=dict)
+
+    @property
+    def key(self) -> Key:
+        return self.material.label, self.mode, self.diameter, self.special
+
+    @property
+    def curves(self) -> List[cv.Curve]:
+        return [result.curve for result in self.confined.values()]
+
+    @property
+    def particles(self) -> int:
+        return next(iter(self.confined.values())).cost.particles
+
+    def crushed(self, level: float) -> List[UnconfinedResult]:
+        return list(self.unconfined[level].values())
+
+    def strength(self, level: float) -> Value:
+        return value_of([result.strength for result in self.crushed(level)])
+
+    def cost(self, get: Callable[[Cost], float]) -> List[float]:
+        """Something of the cost of each confined run."""
+        return [get(result.cost) for result in self.confined.values()]
+
+    def only(self, seeds: Sequence[int]) -> "Group":
+        """The same of some seeds."""
+        return replace(
+            self, confined={s: r for s, r in self.confined.items() if s in seeds},
+            unconfined={level: {s: r for s, r in results.items() if s in seeds}
+                        for level, results in self.unconfined.items()})
+
+
+def special_of(specimen: Confined, plan: Plan) -> str:
+    """What makes a specimen another than those that are compared over the diameters."""
+    words = []
+    if specimen.strain_rate != Confined.strain_rate:
+        words.append(f"{specimen.strain_rate:g}/s")
+    if specimen.side != plan.side:
+        words.append(f"{1e3 * specimen.side:g} mm wide")
+    return ", ".join(words)
+
+
+def group_results(plan: Plan, out: Path, finished: Callable[[Run], bool]) -> Dict[Key, Group]:
+    """The results of the plan's finished runs, read from their folders. A group without a confined
+    run is left out."""
+    groups: Dict[Key, Group] = {}
+    for run in plan.runs:
+        if not finished(run):
+            continue
+        specimen = run if isinstance(run, Confined) else run.specimen
+        fresh = Group(specimen.material, specimen.diameter, specimen.mode,
+                      special_of(specimen, plan), specimen.strain_rate, specimen.side)
+        group = groups.setdefault(fresh.key, fresh)
+        folder = folder_of(out, run)
+        if isinstance(run, Unconfined):
+            group.unconfined.setdefault(run.level, {})[specimen.seed] = load_unconfined(folder, run)
+        else:
+            group.confined[specimen.seed] = load_confined(folder, run, PRELOAD)
+    return {key: group for key, group in groups.items() if group.confined}
+
+
+def reference_of(groups: Dict[Key, Group], group: Group) -> Group:
+    """What a group is compared with: the finest of the same material, scaled; at another strain
+    rate the same packings at the usual one."""
+    usual = [g for g in groups.values() if g.material == group.material and not g.special]
+    if group.strain_rate != Confined.strain_rate:
+        same = next((g for g in usual if (g.diameter, g.mode) == (group.diameter, group.mode)), None)
+        return same.only(list(group.confined)) if same else group
+    return min((g for g in usual if g.mode == "scaled"), default=group, key=lambda g: g.diameter)
+
+
+def comparison_stress(plan: Plan) -> float:
+    """Where groups are compared at equal stress, Pa: below the last level, for the platen lags and
+    samples come at intervals."""
+    return 0.9 * plan.levels[-1]
+
+
+def curve_at_stress(curve: cv.Curve, quantity: str, stress: float) -> float:
+    """A quantity of the loading branch, or `bulk` strain."""
+    branch = curve.loading
+    values = branch.strain[quantity] if quantity in cv.STRAINS else getattr(branch, quantity)
+    return float(cv.interpolate(np.array([stress]), branch.stress, values)[0])
+
+
+def at_stress(group: Group, quantity: str, stress: float) -> Value:
+    return value_of([curve_at_stress(curve, quantity, stress) for curve in group.curves])
+
+
+def speed_up(group: Group, reference: Group, get: Callable[[Cost], float]) -> Value:
+    """How many times longer a run of the reference takes."""
+    return ratio_of_means(reference.cost(get), group.cost(get))
+
+
+def mean_crush(results: Sequence[UnconfinedResult], up_to: float = np.inf) -> cv.Mean:
+    """Stress over strain of crushing, to the strain that every seed reaches."""
+    first = max(r.strain.min() for r in results)
+    last = min(up_to, *(r.strain.max() for r in results))
+    grid = np.linspace(first, last, cv.GRID_POINTS)
+    return cv.mean_of(grid, [cv.interpolate(grid, r.strain, r.stress) for r in results])
+
+
+def crush_deviation(results: Sequence[UnconfinedResult],
+                    reference: Sequence[UnconfinedResult]) -> cv.Deviation:
+    """Of the curves of crushing, over the strain that all reach."""
+    both = [*results, *reference]
+    grid = np.linspace(max(r.strain.min() for r in both), min(r.strain.max() for r in both),
+                       cv.GRID_POINTS)
+    mean, wanted = (cv.mean_of(grid, [cv.interpolate(grid, r.strain, r.stress) for r in some])
+                    for some in (results, reference))
+    return cv.deviation(mean, wanted)
