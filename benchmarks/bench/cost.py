@@ -11,9 +11,9 @@ from .lammps import Parallel, Program, run_lammps
 from .lammps_log import read_log
 from .output import text_table
 from .statistics import column, median, paired_ratios
-from .styles import DAMPED, GRANULAR, HOOKE
+from .styles import DAMPED, GRANULAR, GRANULAR_DAMPED, HOOKE
 
-STYLES = (HOOKE, DAMPED, GRANULAR, "gran/eepa elastic", "gran/eepa full", "gran/eepa sds")
+STYLES = (HOOKE, DAMPED, GRANULAR, GRANULAR_DAMPED, "gran/eepa elastic", "gran/eepa full", "gran/eepa sds")
 
 
 def measure(program: Program, case: Case, styles: Sequence[str], rounds: int,
@@ -51,7 +51,7 @@ def one_run(program: Program, case: Case, style: str, work: Path,
 def table(rows: Sequence[Dict]) -> str:
     """One block a case."""
     header = ("case and style", "pair, s", "loop, s", "pair / hooke", "loop / hooke",
-              "pair / damped", "pair / granular", "contacts", "neighbours",
+              "pair / damped", "pair / granular", "pair / granular damped", "contacts", "neighbours",
               "load/unload/adh/slide, %", "CPU, %")
     lines = []
     for case in dict.fromkeys(row["case"] for row in rows):
@@ -62,7 +62,7 @@ def table(rows: Sequence[Dict]) -> str:
     return text_table(header, lines) + (
         "\nMedians over the rounds; of a ratio the median of the rounds' ratios with its "
         "quartiles. Contacts and\nneighbours are a particle's, contacts between start and end. "
-        "Damped: gran/hooke/history with a dashpot that\nleaves as many contacts as hysteresis "
+        "Damped: LAMMPS's style with a dashpot that\nleaves as many contacts as hysteresis "
         "does. CPU is the least of the runs: below 99 the machine had other\nthings to do.\n")
 
 
@@ -85,7 +85,7 @@ def _line(rows: Sequence[Dict], style: str) -> List[str]:
         f"{median(list(column(rows, style, 'style', value).values())).value:.3f}"
         for value in ("pair_s", "loop_s")] + [
         ratio(HOOKE, "pair_s"), ratio(HOOKE, "loop_s"), ratio(DAMPED, "pair_s"),
-        ratio(GRANULAR, "pair_s"),
+        ratio(GRANULAR, "pair_s"), ratio(GRANULAR_DAMPED, "pair_s"),
         f"{last['contacts'] / last['atoms']:.3f}", f"{last['neighbours'] / last['atoms']:.3f}",
         branches, f"{min(row['cpu_percent'] for row in own):.1f}"]
 

@@ -10,6 +10,7 @@ from typing import Dict, List
 HOOKE = "gran/hooke/history"
 DAMPED = "gran/hooke/history damped"
 GRANULAR = "granular"
+GRANULAR_DAMPED = "granular damped"
 
 
 @dataclass(frozen=True)
@@ -61,8 +62,8 @@ def gamma_of_restitution(restitution: float, k1: float, mass: float) -> float:
 
 def make_styles(m: Material) -> Dict[str, Style]:
     """All styles by name. A flow that hysteresis calms is denser and has more contacts, which is
-    no cost of the pair style; `damped` is gran/hooke/history calmed by its dashpot instead, where
-    the material says how much. Of gran/eepa: elastic is gran/hooke/history's physics; full adds
+    no cost of the pair style; `damped` is one of LAMMPS's styles calmed by its dashpot instead,
+    where the material says how much. Of gran/eepa: elastic is gran/hooke/history's physics; full adds
     hysteresis, adhesion, pull-off force and constant rolling friction; plateau is the same with
     the other law; sds is full with a rolling spring instead."""
     damped = 1 if m.tangential_damping else 0
@@ -78,17 +79,21 @@ def make_styles(m: Material) -> Dict[str, Style]:
         return Style(name, f"gran/hooke/history {m.k1:.9g} NULL {gamma_n:.9g} NULL {m.mu:.9g} "
                            f"{damped}", "", "PairGranHookeHistory")
 
+    def granular(name: str, gamma_n: float) -> Style:
+        return Style(name, "granular",
+                     f"hooke {m.k1:.9g} {gamma_n:.9g} tangential linear_history "
+                     f"{2.0 / 7.0 * m.k1:.17g} {0.5 * damped:g} {m.mu:.9g} damping mass_velocity",
+                     "PairGranular")
+
     styles: List[Style] = [
         hooke(HOOKE, m.gamma_n),
-        Style(GRANULAR, "granular",
-              f"hooke {m.k1:.9g} {m.gamma_n:.9g} tangential linear_history "
-              f"{2.0 / 7.0 * m.k1:.17g} {0.5 * damped:g} {m.mu:.9g} damping mass_velocity",
-              "PairGranular"),
+        granular(GRANULAR, m.gamma_n),
         Style("gran/eepa elastic", "gran/eepa linear", elastic, "PairGranEepa"),
         Style("gran/eepa full", "gran/eepa linear", constant, "PairGranEepa"),
         Style("gran/eepa plateau", "gran/eepa plateau", constant, "PairGranEepa"),
         Style("gran/eepa sds", "gran/eepa linear", sds, "PairGranEepa"),
     ]
     if m.damped_restitution:
-        styles.insert(1, hooke(DAMPED, gamma_of_restitution(m.damped_restitution, m.k1, m.mass)))
+        gamma_n = gamma_of_restitution(m.damped_restitution, m.k1, m.mass)
+        styles[1:2] = [hooke(DAMPED, gamma_n), styles[1], granular(GRANULAR_DAMPED, gamma_n)]
     return {style.name: style for style in styles}

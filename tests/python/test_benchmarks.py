@@ -120,8 +120,12 @@ class Styles(unittest.TestCase):
         some = styles.make_styles(cases.CHUTE)
         self.assertEqual(some[styles.HOOKE].pair_style,
                          "gran/hooke/history 200000 NULL 50 NULL 0.5 0")
-        self.assertIn(styles.DAMPED, some)
-        self.assertNotIn(styles.DAMPED, styles.make_styles(cases.POWDER))
+        gamma = styles.gamma_of_restitution(0.1, cases.CHUTE.k1, cases.CHUTE.mass)
+        for name, calmed in ((styles.HOOKE, styles.DAMPED),
+                             (styles.GRANULAR, styles.GRANULAR_DAMPED)):
+            self.assertEqual(some[calmed].lines,
+                             some[name].lines.replace(" 50 ", f" {gamma:.9g} ", 1))
+            self.assertNotIn(calmed, styles.make_styles(cases.POWDER))
 
     def test_commands(self):
         program = lammps.Program(Path("lmp"))
@@ -179,7 +183,7 @@ class InLammps(unittest.TestCase):
         made = case.data.stat().st_mtime_ns
         self.assertEqual(cases.packing(self.program, self.work, 300).stat().st_mtime_ns, made)
         rows = cost.measure(self.program, case, cost.STYLES, 2, self.work)
-        names = [name for name in cost.STYLES if name != styles.DAMPED]
+        names = [name for name in cost.STYLES if "damped" not in name]
         self.assertEqual([row["style"] for row in rows], names * 2)  # in turn
         for row in rows:
             self.assertEqual((row["atoms"], row["steps"]), (300, 60))
