@@ -93,6 +93,9 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
             parser.error("--strength and --unconfined both give the strength: name one of them")
         if arguments.strength_error < 0.0:
             parser.error(f"--strength-error is {arguments.strength_error:g}, allowed is 0 or more")
+        if (arguments.strength_error and arguments.strength is None
+                and arguments.unconfined is None):
+            parser.error("--strength-error needs --strength or --unconfined")
         if arguments.tensile is not None and "f0" in arguments.free:
             parser.error("--tensile gives f0, so it can not be free")
         arguments.out = (arguments.out or build_folder() / "calibrate").resolve()

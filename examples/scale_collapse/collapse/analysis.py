@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Dict, List
+from typing import Callable, Dict, List, Optional
 
 import numpy as np
 
 from . import curves as cv
-from .groups import (Group, Key, at_stress, comparison_stress, crush_deviation, reference_of,
+from .groups import (Group, Key, at_stress, comparison_stress, crush_deviation, references,
                      speed_up)
 from .plan import BASE, Plan
 from .specimens import Confined
@@ -18,8 +18,8 @@ from .statistics import (Value, paired_percent, ratio_percent, scatter_percent,
 
 @dataclass(frozen=True)
 class Row:
-    """One group beside what it is compared with (reference_of). Deviations in % with their
-    standard error; an empty field has no meaning there."""
+    """One group beside what it is compared with (groups.references). Deviations in % with their
+    standard error; what has no meaning, or nothing to compare it with, is not a number."""
 
     material: str
     mode: str
@@ -29,7 +29,11 @@ class Row:
     width_mm: float
     reference_mm: float
     particles: int
+    #: packings, those of them that were crushed after the last level, and runs of crushing, after
+    #: whatever level, that did not fail
     seeds: int
+    crushed: int
+    not_failed: int
     inertial_number: float
     crush_inertial_number: float
     loading_deviation: Value
@@ -59,7 +63,7 @@ class Row:
     whole_steps: float
     whole_seconds: float
     whole_speed_up: Value
-    #: (d/d of the finest)^4, as particles and steps alone would have it
+    #: (d/d of the finest)^4, as particles and steps of scaled specimens alone would have it
     expected_speed_up: float
 
     @property
@@ -71,71 +75,74 @@ NOTHING = Value(float("nan"), float("nan"))
 
 
 def make_rows(groups: Dict[Key, Group], plan: Plan) -> List[Row]:
-    stress = comparison_stress(plan)
-    return [_row(group, reference_of(groups, group), stress, plan.levels[-1])
-            for group in groups.values()]
+    compared = references(groups, plan)
+    return [_row(group, compared[key], comparison_stress(plan), plan.levels[-1])
+            for key, group in groups.items()]
 
 
-def _row(group: Group, reference: Group, stress: float, last: float) -> Row:
-    itself = group is reference
-    paired = group.strain_rate != Confined.strain_rate and not itself
-
-    def apart(quantity: str) -> Value:
-        return NOTHING if itself else ratio_percent(at_stress(group, quantity, stress),
-                                                    at_stress(reference, quantity, stress))
-
-    loading = paired_loading(group, reference) if paired else cv.loading_deviation(
-        group.curves, reference.curves, "bulk")
-    unloading = cv.unloading_deviation(group.curves, reference.curves, "bulk")
+def _row(group: Group, reference: Optional[Group], stress: float, last: float) -> Row:
+    paired = group.strain_rate != Confined.strain_rate
+    if paired and reference:
+        group = group.only(list(reference.confined))
+    other = None if reference is group else reference
+    if other:
+        loading = paired_loading(group, other) if paired else cv.loading_deviation(
+            group.curves, other.curves, "bulk")
+        unloading = cv.unloading_deviation(group.curves, other.curves, "bulk")
     up_to = cv.common_strain([group.curves], "bulk")
-    crushed = [] if itself else [level for level in sorted(group.unconfined)
-                                 if level in reference.unconfined]
+    crushed = [level for level in sorted(group.unconfined) if other and level in other.unconfined]
     results = [r for some in group.unconfined.values() for r in some.values()]
+
+    def apart(get: Callable[[Group], Value]) -> Value:
+        return ratio_percent(get(group), get(other)) if other else NOTHING
+
+    def at(quantity: str) -> Callable[[Group], Value]:
+        return lambda some: at_stress(some, quantity, stress)
+
     return Row(
         material=group.material.label, mode=group.mode, special=group.special,
         strain_rate=group.strain_rate, diameter_mm=1e3 * group.diameter,
-        width_mm=1e3 * group.side, reference_mm=1e3 * reference.diameter,
+        width_mm=1e3 * group.side,
+        reference_mm=1e3 * reference.diameter if reference else float("nan"),
         particles=group.particles, seeds=len(group.confined),
+        crushed=len(group.unconfined.get(last, {})),
+        not_failed=sum(not r.failed for r in results),
         inertial_number=max(r.inertial_number for r in group.confined.values()),
         crush_inertial_number=max((r.inertial_number for r in results), default=float("nan")),
-        loading_deviation=_value(loading, itself),
-        loading_mean_deviation=float("nan") if itself else loading.mean_percent,
+        loading_deviation=_value(loading) if other else NOTHING,
+        loading_mean_deviation=loading.mean_percent if other else float("nan"),
         loading_scatter=scatter_percent(cv.mean_stress(group.curves, "bulk", up_to)),
-        unloading_deviation=_value(unloading, itself),
-        porosity=at_stress(group, "bulk_porosity", stress),
-        porosity_deviation=apart("bulk_porosity"),
-        coordination=at_stress(group, "coordination", stress),
-        coordination_deviation=apart("coordination"),
-        bulk_coordination=at_stress(group, "bulk_coordination", stress),
-        bulk_coordination_deviation=apart("bulk_coordination"),
+        unloading_deviation=_value(unloading) if other else NOTHING,
+        porosity=at("bulk_porosity")(group), porosity_deviation=apart(at("bulk_porosity")),
+        coordination=at("coordination")(group),
+        coordination_deviation=apart(at("coordination")),
+        bulk_coordination=at("bulk_coordination")(group),
+        bulk_coordination_deviation=apart(at("bulk_coordination")),
         cut_coordination=(value_of([100.0 * (r.coordination / r.uncut_coordination - 1.0)
                                     for r in group.crushed(last)])
                           if last in group.unconfined else NOTHING),
-        strain=at_stress(group, "bulk", stress),
-        constrained_modulus=_moduli(group, "constrained"),
-        bulk_modulus=_moduli(group, "bulk"),
-        bulk_modulus_deviation=(NOTHING if itself else ratio_percent(
-            _moduli(group, "bulk"), _moduli(reference, "bulk"))),
+        strain=at("bulk")(group),
+        constrained_modulus=_moduli(group, "constrained"), bulk_modulus=_moduli(group, "bulk"),
+        bulk_modulus_deviation=apart(lambda some: _moduli(some, "bulk")),
         lateral_ratio=_moduli(group, "lateral_ratio"),
         strength={level: group.strength(level) for level in sorted(group.unconfined)},
-        strength_deviation={level: (paired_strength(group, reference, level) if paired else
-                                    ratio_percent(group.strength(level),
-                                                  reference.strength(level)))
+        strength_deviation={level: (paired_strength(group, other, level) if paired else
+                                    ratio_percent(group.strength(level), other.strength(level)))
                             for level in crushed},
-        crush_deviation={level: _value(crush_deviation(group.crushed(level),
-                                                       reference.crushed(level)), False)
+        crush_deviation={level: _value(crush_deviation(group.crushed(level), other.crushed(level)))
                          for level in crushed},
         steps=float(np.mean(group.cost(lambda c: c.test_steps))),
         seconds=float(np.mean(group.cost(lambda c: c.test_seconds))),
-        speed_up=speed_up(group, reference, lambda c: c.test_seconds),
+        speed_up=speed_up(group, other, lambda c: c.test_seconds) if other else NOTHING,
         whole_steps=float(np.mean(group.cost(lambda c: c.steps))),
         whole_seconds=float(np.mean(group.cost(lambda c: c.seconds))),
-        whole_speed_up=speed_up(group, reference, lambda c: c.seconds),
-        expected_speed_up=(group.diameter / reference.diameter) ** 4)
+        whole_speed_up=speed_up(group, other, lambda c: c.seconds) if other else NOTHING,
+        expected_speed_up=((group.diameter / other.diameter) ** 4 if other and not group.special
+                           else float("nan")))
 
 
-def _value(found: cv.Deviation, itself: bool) -> Value:
-    return NOTHING if itself else Value(found.percent, found.standard_error)
+def _value(found: cv.Deviation) -> Value:
+    return Value(found.percent, found.standard_error)
 
 
 def _moduli(group: Group, name: str) -> Value:
@@ -187,7 +194,7 @@ def _similar(coarse: Group, fine: Group, stress: float) -> Similar:
     return Similar(
         1e3 * coarse.diameter, 1e3 * coarse.side, 1e3 * fine.diameter, 1e3 * fine.side,
         len(coarse.confined), len(fine.confined),
-        _value(cv.loading_deviation(coarse.curves, fine.curves, "bulk"), False),
+        _value(cv.loading_deviation(coarse.curves, fine.curves, "bulk")),
         ratio_percent(at_stress(coarse, "coordination", stress),
                       at_stress(fine, "coordination", stress)),
         {level: ratio_percent(coarse.strength(level), fine.strength(level))

@@ -115,10 +115,10 @@ def residual(target: Target, curve: cv.Curve, strength: Optional[float]) -> Resi
     wanted = np.interp(grid, target.stress, target.strain)
     found = cv.interpolate(grid, curve.loading.stress, curve.loading.strain["bulk"])
     parts = [(found - wanted) / wanted[-1] / math.sqrt(POINTS)]
-    shifts = []
+    of_strain = []
     if target.strain_error is not None:
-        shifts.append(np.interp(grid, target.stress, target.strain_error)
-                      / wanted[-1] / math.sqrt(POINTS))
+        error = np.interp(grid, target.stress, target.strain_error)
+        of_strain.append(-error / wanted[-1] / math.sqrt(POINTS))
     low = max(target.preload, float(target.porosity_stress[0]))
     grid = np.linspace(low, min(top, float(target.porosity_stress[-1])), POINTS)
     wanted = np.interp(grid, target.porosity_stress, target.porosity)
@@ -128,15 +128,18 @@ def residual(target: Target, curve: cv.Curve, strength: Optional[float]) -> Resi
     if not span > 0.0:
         raise ValueError("the target's porosity does not change with stress")
     parts.append((found - wanted - offset) / span / math.sqrt(POINTS))
+    if target.strain_error is not None:
+        # porosity says the same as strain, and has the same error: its change is (1 - n) strain's
+        error = np.interp(grid, target.stress, target.strain_error) * (1.0 - wanted)
+        of_strain.append((error - error[0]) / span / math.sqrt(POINTS))
+    shifts = [np.concatenate(of_strain)] if of_strain else []
     if target.strength is not None:
         assert strength is not None
         parts.append(np.array([math.log(strength / target.strength)]))
-        shifts.append(np.array([target.strength_error / target.strength]))
-    values = np.concatenate(parts)
-    # strain comes first, strength last
-    padded = [np.concatenate([shift, np.zeros(len(values) - len(shift))] if len(shift) > 1 else
-                             [np.zeros(len(values) - 1), shift]) for shift in shifts]
-    return Residual(values, offset, tuple(padded))
+        shifts = [np.append(shift, 0.0) for shift in shifts]
+        shifts.append(np.append(np.zeros(sum(map(len, parts)) - 1),
+                                target.strength_error / target.strength))
+    return Residual(np.concatenate(parts), offset, tuple(shifts))
 
 
 @dataclass

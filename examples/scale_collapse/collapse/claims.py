@@ -30,13 +30,15 @@ class Claim:
     verdict: str
 
 
-def claims(rows: Sequence[Row]) -> List[Claim]:
-    """Of the base material; a size that was not run makes no claim."""
-    base = [r for r in rows if r.material == BASE.label and r.usual]
+def claims(rows: Sequence[Row], finest: float) -> List[Claim]:
+    """Of the base material, inertial numbers of all. What was not run, or has no finest particles
+    to be compared with, makes no claim.
+
+    :param finest: diameter of the plan's finest particles, mm
+    """
+    base = [r for r in rows if r.material == BASE.label and r.usual
+            and np.isclose(r.reference_mm, finest)]
     scaled = [r for r in base if r.mode == "scaled"]
-    if not scaled:
-        return []
-    finest = min(r.diameter_mm for r in scaled)
     found: List[Claim] = []
     for size, (curve, strength, speed_up) in LIMITS.items():
         row = _find(base, "scaled", size * finest)
@@ -64,7 +66,7 @@ def claims(rows: Sequence[Row]) -> List[Claim]:
                            _percent(value), "yes" if value.value > UNSCALED else "NO"))
         found += [_plain(f"unscaled, 2x: strength after {level / 1e3:g} kPa", _percent(value))
                   for level, value in row.strength_deviation.items()]
-    largest = max(r.inertial_number for r in rows)
+    largest = max((r.inertial_number for r in rows), default=0.0)
     found.append(Claim("largest inertial number on loading", f"<= {INERTIAL_NUMBER:g}",
                        f"{largest:.1e}", "yes" if largest <= INERTIAL_NUMBER else "NO"))
     crushing = [r.crush_inertial_number for r in rows if np.isfinite(r.crush_inertial_number)]
@@ -76,12 +78,17 @@ def claims(rows: Sequence[Row]) -> List[Claim]:
                             f"{PUBLISHED_SCATTER:g}%)", f"{min(scatter):.2f} to "
                             f"{max(scatter):.2f}%"))
     slow = next((r for r in rows if r.material == BASE.label
-                 and r.strain_rate < Confined.strain_rate), None)
+                 and r.strain_rate < Confined.strain_rate
+                 and np.isfinite(r.loading_deviation.value)), None)
     if slow is not None:
         name = f"half the speed, {slow.diameter_mm:g} mm, same packings"
         found.append(_plain(f"{name}: curve, RMS", _percent(slow.loading_deviation)))
         found += [_plain(f"{name}: strength after {level / 1e3:g} kPa", _percent(value))
                   for level, value in slow.strength_deviation.items()]
+    not_failed = sum(r.not_failed for r in rows)
+    if not_failed:
+        found.append(_plain("specimens that were crushed by 12% and did not fail",
+                            str(not_failed)))
     return found
 
 

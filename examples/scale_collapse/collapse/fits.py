@@ -11,7 +11,7 @@ import numpy as np
 from .groups import Group, Key, comparison_stress, curve_at_stress
 from .plan import BASE, FACTORS, PULL_OFF, Plan, pulled_harder, stickier, stiffer
 from .specimens import Material
-from .statistics import (Proportion, Value, best_factor, exponent, exponent_from_reference,
+from .statistics import (Proportion, Value, best_factors, exponent, exponent_from_reference, pooled,
                          proportion, slope, value_of)
 
 
@@ -50,7 +50,8 @@ class StrengthPoint:
 
 
 def strength_points(groups: Dict[Key, Group]) -> List[StrengthPoint]:
-    """Of the specimens that are compared with each other."""
+    """Of the specimens that are compared with each other. Those of a group are of the same
+    packings, so that the error of a fit through all points is rather too small."""
     return [StrengthPoint(
         group.material.label, group.mode, group.diameter, level,
         value_of([r.coordination * (1.0 - r.porosity) for r in group.crushed(level)]),
@@ -76,6 +77,8 @@ class FreeExponent:
     #: log of the coefficient over that at the reference diameter
     logs: List[Value]
     exponent: Value
+    #: whether a best factor lies beyond those that were run
+    extrapolated: bool
 
 
 #: Of a group by seed.
@@ -116,24 +119,26 @@ def _free_exponent(groups: Dict[Key, Group], plan: Plan, what: str, expected: fl
         return None
     target = value_of(list(wanted.values()))
     factors = sorted((1.0, *FACTORS))
-    diameters, logs, slopes = [], [], []
+    diameters, best, slopes = [], [], []
     for diameter in (d for d in plan.fitted if d > finest):
         series = [of(material if f == 1.0 else vary(material, f), diameter) for f in factors]
         # The runs of a seed start from one packing, so that they are not independent.
         seeds = set(series[0]).intersection(*series[1:])
-        fits = [best_factor(factors, [some[seed] for some in series], target.value)
-                for seed in sorted(seeds)]
-        if fits:
-            best = value_of([log_factor for log_factor, _ in fits])
+        if seeds:
+            found, line = best_factors(factors, [[some[seed] for some in series]
+                                                 for seed in sorted(seeds)], target.value)
             diameters.append(diameter)
-            logs.append(Value(best.value + expected * np.log(diameter / finest), best.error))
-            slopes.append(abs(np.mean([line for _, line in fits])))
-    if not logs:
+            best.append(value_of(found))
+            slopes.append(abs(line))
+    if not best:
         return None
+    beyond = any(not min(factors) <= np.exp(v.value) <= max(factors) for v in best)
+    logs = [Value(v.value + expected * np.log(d / finest), v.error)
+            for v, d in zip(pooled(best), diameters)]
     common = target.error / target.value / float(np.mean(slopes))
     fit = exponent_from_reference([d / finest for d in diameters], [v.value for v in logs],
                                   [v.error for v in logs], common)
-    return FreeExponent(what, expected, text, finest, diameters, logs, fit)
+    return FreeExponent(what, expected, text, finest, diameters, logs, fit, beyond)
 
 
 def speed_exponent(groups: Dict[Key, Group], mode: str) -> Optional[Value]:
@@ -145,7 +150,7 @@ def speed_exponent(groups: Dict[Key, Group], mode: str) -> Optional[Value]:
         return None
     finest = min(scaled, key=lambda g: g.diameter)
     some = [finest] + [g for g in usual if g.mode == mode and g is not finest]
-    if len(some) < 2:
+    if len({g.diameter for g in some}) < 2:
         return None
     fit = exponent([g.diameter for g in some],
                    [np.mean(g.cost(lambda c: c.test_seconds)) for g in some])

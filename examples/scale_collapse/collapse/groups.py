@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Callable, Dict, List, Sequence, Tuple
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -59,10 +59,10 @@ class Group:
 
     def only(self, seeds: Sequence[int]) -> "Group":
         """The same of some seeds."""
-        return replace(
-            self, confined={s: r for s, r in self.confined.items() if s in seeds},
-            unconfined={level: {s: r for s, r in results.items() if s in seeds}
-                        for level, results in self.unconfined.items()})
+        crushed = {level: {s: r for s, r in results.items() if s in seeds}
+                   for level, results in self.unconfined.items()}
+        return replace(self, confined={s: r for s, r in self.confined.items() if s in seeds},
+                       unconfined={level: results for level, results in crushed.items() if results})
 
 
 def special_of(specimen: Confined, plan: Plan) -> str:
@@ -94,14 +94,22 @@ def group_results(plan: Plan, out: Path, finished: Callable[[Run], bool]) -> Dic
     return {key: group for key, group in groups.items() if group.confined}
 
 
-def reference_of(groups: Dict[Key, Group], group: Group) -> Group:
-    """What a group is compared with: the finest of the same material, scaled; at another strain
-    rate the same packings at the usual one."""
-    usual = [g for g in groups.values() if g.material == group.material and not g.special]
-    if group.strain_rate != Confined.strain_rate:
-        same = next((g for g in usual if (g.diameter, g.mode) == (group.diameter, group.mode)), None)
-        return same.only(list(group.confined)) if same else group
-    return min((g for g in usual if g.mode == "scaled"), default=group, key=lambda g: g.diameter)
+def references(groups: Dict[Key, Group], plan: Plan) -> Dict[Key, Optional[Group]]:
+    """What each group is compared with: the finest scaled one that is planned of its material; at
+    another strain rate the same packings at the usual one. Nothing where that has not been run."""
+    usual = {(g.material, g.mode, g.diameter): g for g in groups.values() if not g.special}
+    finest: Dict[Material, float] = {}
+    for run in plan.runs:
+        if isinstance(run, Confined) and run.scaled and not special_of(run, plan):
+            finest[run.material] = min(run.diameter, finest.get(run.material, run.diameter))
+
+    def of(group: Group) -> Optional[Group]:
+        if group.strain_rate == Confined.strain_rate:
+            return usual.get((group.material, "scaled", finest.get(group.material)))
+        same = usual.get((group.material, group.mode, group.diameter))
+        both = [seed for seed in group.confined if same and seed in same.confined]
+        return same.only(both) if both else None
+    return {key: of(group) for key, group in groups.items()}
 
 
 def comparison_stress(plan: Plan) -> float:
@@ -126,20 +134,22 @@ def speed_up(group: Group, reference: Group, get: Callable[[Cost], float]) -> Va
     return ratio_of_means(reference.cost(get), group.cost(get))
 
 
-def mean_crush(results: Sequence[UnconfinedResult], up_to: float = np.inf) -> cv.Mean:
+def mean_crush(results: Sequence[UnconfinedResult]) -> cv.Mean:
     """Stress over strain of crushing, to the strain that every seed reaches."""
-    first = max(r.strain.min() for r in results)
-    last = min(up_to, *(r.strain.max() for r in results))
-    grid = np.linspace(first, last, cv.GRID_POINTS)
+    return _crush_over(_crush_grid(results), results)
+
+
+def _crush_grid(results: Sequence[UnconfinedResult]) -> np.ndarray:
+    return np.linspace(max(r.strain.min() for r in results), min(r.strain.max() for r in results),
+                       cv.GRID_POINTS)
+
+
+def _crush_over(grid: np.ndarray, results: Sequence[UnconfinedResult]) -> cv.Mean:
     return cv.mean_of(grid, [cv.interpolate(grid, r.strain, r.stress) for r in results])
 
 
 def crush_deviation(results: Sequence[UnconfinedResult],
                     reference: Sequence[UnconfinedResult]) -> cv.Deviation:
     """Of the curves of crushing, over the strain that all reach."""
-    both = [*results, *reference]
-    grid = np.linspace(max(r.strain.min() for r in both), min(r.strain.max() for r in both),
-                       cv.GRID_POINTS)
-    mean, wanted = (cv.mean_of(grid, [cv.interpolate(grid, r.strain, r.stress) for r in some])
-                    for some in (results, reference))
-    return cv.deviation(mean, wanted)
+    grid = _crush_grid([*results, *reference])
+    return cv.deviation(_crush_over(grid, results), _crush_over(grid, reference))

@@ -17,10 +17,13 @@ from .statistics import slope
 UNLOAD = "unload.csv"
 #: Part of unloading that moduli are taken from: stress over that at its beginning.
 ELASTIC = (0.5, 0.95)
-#: Samples of the running mean that finds the peak of crushing: one lasts 2e-4 of strain.
-SMOOTHED = 5
-#: Part of that peak from which on samples make the parabola whose vertex is the strength.
-NEAR_PEAK = 0.9
+#: Samples, least and most, of the running mean that finds the peak of crushing (one lasts 2e-4 of
+#: strain), and part of that peak from which on they make the curve whose top is the strength.
+#: What samples scatter by lasts for several of them: a narrower window would be chosen by it.
+SMOOTHED = (5, 15)
+NEAR_PEAK = 0.8
+#: Strain that in.unconfined ends at when stress has not fallen before.
+LARGEST_STRAIN = 0.12
 #: Stages that make a specimen rather than test it.
 MAKING = ("start", "place", "relax", "pack")
 
@@ -52,7 +55,8 @@ class UnconfinedResult:
     stress: np.ndarray
     strength: float
     strain_at_peak: float
-    coordination_at_peak: float
+    #: whether stress fell after it
+    failed: bool
     moduli: Moduli
     #: of the bulk, coordination number and mean pull-off force (N) of the contacts before crushing
     porosity: float
@@ -114,26 +118,23 @@ def moduli_of(samples: np.ndarray, name: str = "curve") -> Moduli:
 
 
 def strength_of(strain: np.ndarray, stress: np.ndarray) -> Tuple[float, float]:
-    """Largest stress of crushing and its strain: the vertex of the parabola of least squares
-    through the samples around the peak. The largest sample, or mean of a few, would be above it
-    by what they scatter, which is more the coarser the particles are."""
-    smooth = running_mean(stress, SMOOTHED)
+    """Largest stress of crushing and its strain: the top of the cubic of least squares through the
+    samples around the peak. The largest sample, or mean of a few, would be above it by what they
+    scatter, which is more the coarser the particles are."""
+    width = min(SMOOTHED[1], max(SMOOTHED[0], len(stress) // 15))
+    smooth = running_mean(stress, width)
     rough = int(np.argmax(smooth))
     far = np.flatnonzero(smooth < NEAR_PEAK * smooth[rough])
     first = int(far[far < rough].max(initial=-1)) + 1
     last = int(far[far > rough].min(initial=len(stress)))
     x, y = strain[first:last], stress[first:last]
-    if len(x) < SMOOTHED:
+    if len(x) < SMOOTHED[0]:
         return float(smooth[rough]), float(strain[rough])
-    middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])
-    parabola = np.polynomial.Polynomial.fit(x, y, 2, domain=[x[0], x[-1]])
-    constant, linear, square = parabola.coef
-    if square < 0.0 and abs(linear) <= -2.0 * square:
-        vertex = -linear / (2.0 * square)
-        return float(constant - linear**2 / (4.0 * square)), float(middle + half * vertex)
-    # no vertex among the samples: it did not fail, or did so before the first of them
-    end = 0 if parabola(x[0]) > parabola(x[-1]) else -1
-    return float(parabola(x[end])), float(x[end])
+    cubic = np.polynomial.Polynomial.fit(x, y, 3)
+    fine = np.linspace(x[0], x[-1], 1001)
+    values = cubic(fine)
+    top = int(np.argmax(values))
+    return float(values[top]), float(fine[top])
 
 
 def inertial_number(diameter: float, strain_rate: np.ndarray, stress: np.ndarray) -> np.ndarray:
@@ -169,18 +170,17 @@ def unconfined_from(unload: np.ndarray, crush: np.ndarray, run: Unconfined, cost
                     name: str = "curve") -> UnconfinedResult:
     """:raise BadCurve: without samples before and on crushing"""
     free, crushed = (crush[crush["stage"] == stage] for stage in ("free", "crush"))
-    if len(free) == 0 or len(crushed) < SMOOTHED:
+    if len(free) == 0 or len(crushed) < SMOOTHED[0]:
         raise BadCurve(f"{name}: {len(free)} samples before crushing and {len(crushed)} on it")
     before = free[-1]
     strain = 1.0 - crushed["height"] / before["height"]
     stress = axial_stress(crushed)
     strength, strain_at_peak = strength_of(strain, stress)
-    peak = int(np.argmin(np.abs(strain - strain_at_peak)))
     material: Material = run.specimen.material
     pull_off = material.pull_off(float(before["plastic_overlap"]), run.specimen.size)
     return UnconfinedResult(
         strain, stress, strength, strain_at_peak,
-        float(crushed["coordination"][peak]), moduli_of(unload, name),
+        bool(strain[-1] < 0.99 * LARGEST_STRAIN), moduli_of(unload, name),
         float(before["bulk_porosity"]), float(before["coordination"]), pull_off,
         float(unload["coordination"][-1]),
         float(inertial_number(run.diameter, np.array(run.crushing_rate), np.array(strength))),

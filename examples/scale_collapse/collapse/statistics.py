@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Mapping, Optional, Sequence, Tuple
+from typing import List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -88,15 +88,26 @@ def exponent_from_reference(sizes: Sequence[float], logs: Sequence[float],
     return Value(value, float(error))
 
 
-def best_factor(factors: Sequence[float], responses: Sequence[float],
-                target: float) -> Tuple[float, float]:
-    """log of the factor at which the response is the target, on the straight line of least squares
-    through log(response) over log(factor), and the slope of that line."""
-    x, y = np.log(factors), np.log(responses)
-    line = slope(x, y).value
+def best_factors(factors: Sequence[float], responses: Sequence[Sequence[float]],
+                 target: float) -> Tuple[List[float], float]:
+    """Of each packing log of the factor at which its response is the target, on a straight line of
+    log(response) over log(factor), and the slope of these lines, the mean over the packings: what a
+    single one scatters by would be in both.
+
+    :param responses: of each packing, in the order of the factors
+    """
+    x, y = np.log(factors), np.log(np.asarray(responses, dtype=float))
+    line = float(np.mean([slope(x, row).value for row in y]))
     if line == 0.0:
         raise ValueError("the response does not depend on the factor")
-    return float(x.mean() + (np.log(target) - y.mean()) / line), line
+    return list(x.mean() + (np.log(target) - y.mean(axis=1)) / line), line
+
+
+def pooled(values: Sequence[Value]) -> List[Value]:
+    """The same with one error for all, the root mean square of theirs: of a few seeds each, the
+    errors themselves scatter too much to weigh the values with."""
+    error = float(np.sqrt(np.mean([v.error**2 for v in values])))
+    return [Value(v.value, error) for v in values]
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,12 @@ import numpy as np  # noqa: E402
 
 from . import curves as cv  # noqa: E402
 from .analysis import NOTHING, Row  # noqa: E402
+from .cases import MODES  # noqa: E402
 from .fits import FreeExponent, StrengthPoint, flow_function, proportion_of  # noqa: E402
 from .groups import Group, Key, mean_crush  # noqa: E402
 from .plan import BASE  # noqa: E402
 from .report import COLOURS, WIDTH  # noqa: E402
-
-MODES = ("scaled", "unscaled")
+from .statistics import Value  # noqa: E402
 
 
 def _save(figure: plt.Figure, path: Path) -> Path:
@@ -27,6 +27,11 @@ def _save(figure: plt.Figure, path: Path) -> Path:
     figure.savefig(path, dpi=120)
     plt.close(figure)
     return path
+
+
+def _legend(axis: plt.Axes) -> None:
+    if axis.get_legend_handles_labels()[0]:
+        axis.legend(fontsize=8, frameon=False)
 
 
 def _of(groups: Dict[Key, Group], material: str, mode: str) -> List[Group]:
@@ -86,7 +91,7 @@ def confined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
                                       mean.value + mean.error, color=colour, alpha=0.15,
                                       linewidth=0.0)
         top.set_title(mode)
-        top.legend(fontsize=8, frameon=False)
+        _legend(top)
         top.set_xlabel("axial strain of the bulk (%)")
         for axis in (middle, bottom):
             axis.set_xlabel("axial stress (kPa)")
@@ -97,8 +102,8 @@ def confined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
     return _save(figure, path)
 
 
-def unconfined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
-    """Stress over strain of crushing after the highest level, and the flow function."""
+def unconfined(groups: Dict[Key, Group], material: str, level: float, path: Path) -> Path:
+    """Stress over strain of crushing after a level, and the flow function."""
     modes = _modes(groups, material)
     figure, axes = plt.subplots(2, len(modes), squeeze=False, sharey="row",
                                 figsize=(1.2 + 4.6 * len(modes), 7.5), constrained_layout=True)
@@ -107,22 +112,23 @@ def unconfined(groups: Dict[Key, Group], material: str, path: Path) -> Path:
         for group in _of(groups, material, mode):
             if not group.unconfined:
                 continue
-            colour, level = _colour(groups, group, mode), max(group.unconfined)
-            mean = mean_crush(group.crushed(level))
-            crush.plot(100.0 * mean.grid, mean.value / 1e3, color=colour,
-                       label=_label(group, mode))
-            crush.fill_between(100.0 * mean.grid, (mean.value - mean.error) / 1e3,
-                               (mean.value + mean.error) / 1e3, color=colour, alpha=0.15,
-                               linewidth=0.0)
+            colour = _colour(groups, group, mode)
+            if level in group.unconfined:
+                mean = mean_crush(group.crushed(level))
+                crush.plot(100.0 * mean.grid, mean.value / 1e3, color=colour,
+                           label=_label(group, mode))
+                crush.fill_between(100.0 * mean.grid, (mean.value - mean.error) / 1e3,
+                                   (mean.value + mean.error) / 1e3, color=colour, alpha=0.15,
+                                   linewidth=0.0)
             function = flow_function(group)
             flow.errorbar(np.array(function.levels) / 1e3,
                           [s.value / 1e3 for s in function.strengths],
                           _errors([s.error for s in function.strengths], 1e-3), color=colour,
                           marker="o", markersize=4, capsize=2, label=_label(group, mode))
-            crush.set_title(f"{mode}, after {level / 1e3:g} kPa")
+        crush.set_title(f"{mode}, after {level / 1e3:g} kPa")
         crush.set_xlabel("axial strain (%)")
         flow.set_xlabel("consolidation stress (kPa)")
-        crush.legend(fontsize=8, frameon=False)
+        _legend(crush)
     axes[0][0].set_ylabel("axial stress (kPa)")
     axes[1][0].set_ylabel("unconfined strength (kPa)")
     figure.suptitle(f"Unconfined compression, {material}")
@@ -154,7 +160,7 @@ def deviations(rows: Sequence[Row], path: Path) -> Path:
         axis.axhline(0.0, color="black", linewidth=0.6)
         axis.set_title(title, fontsize=10)
         axis.set_xlabel("d over that of the finest")
-        axis.legend(fontsize=8, frameon=False)
+        _legend(axis)
     return _save(figure, path)
 
 
@@ -175,7 +181,7 @@ def micromechanics(points: Sequence[StrengthPoint], path: Path) -> Path:
               label=f"{line.constant:.3f} Z (1 - n)")
     axis.set_xlabel("Z (1 - n) before crushing")
     axis.set_ylabel(r"$\sigma_u d^2 / f_{at}$")
-    axis.legend(fontsize=7, frameon=False)
+    _legend(axis)
     return _save(figure, path)
 
 
@@ -196,7 +202,7 @@ def sizes(rows: Sequence[Row], path: Path) -> Path:
     axes[1].set_ylabel("coordination number before unloading")
     for axis in axes:
         axis.set_xlabel("width of the specimen over d")
-        axis.legend(fontsize=8, frameon=False)
+        _legend(axis)
     return _save(figure, path)
 
 
@@ -218,7 +224,7 @@ def exponents(found: Sequence[FreeExponent], path: Path) -> Path:
         axis.set(xscale="log", yscale="log",
                  xlabel=f"d over {1e3 * one.reference_diameter:g} mm",
                  ylabel=f"best {one.what} over that of {1e3 * one.reference_diameter:g} mm")
-        axis.legend(fontsize=8, frameon=False)
+        _legend(axis)
     return _save(figure, path)
 
 
@@ -228,18 +234,21 @@ def speed(rows: Sequence[Row], path: Path) -> Path:
     finest = min(r.diameter_mm for r in base if r.mode == "scaled")
     figure, axis = plt.subplots(figsize=(5.5, 4.2), constrained_layout=True)
     for mode, colour in zip(MODES, ("#0072B2", "#D55E00")):
-        some = sorted((r for r in base if r.mode == mode or r.diameter_mm == finest),
+        some = sorted((r for r in base if (r.mode == mode or r.diameter_mm == finest
+                                           and r.mode == "scaled")
+                       and (r.diameter_mm == finest or np.isfinite(r.speed_up.value))),
                       key=lambda r: r.diameter_mm)
         ratios = [r.diameter_mm / finest for r in some]
         for get, line, size, label in ((lambda r: r.speed_up, "o-", 6, mode),
                                        (lambda r: r.whole_speed_up, "o:", 3,
                                         f"{mode}, whole run")):
-            axis.errorbar(ratios, [get(r).value for r in some],
-                          _errors([get(r).error for r in some]), fmt=line, markersize=size,
+            shown = [get(r) if np.isfinite(get(r).value) else Value(1.0, 0.0) for r in some]
+            axis.errorbar(ratios, [value.value for value in shown],
+                          _errors([value.error for value in shown]), fmt=line, markersize=size,
                           capsize=2, color=colour, label=label)
     reach = np.linspace(1.0, max(r.diameter_mm for r in base) / finest, 50)
     axis.plot(reach, reach**4, "--", color="black", linewidth=0.8, label="(d/d finest)$^4$")
     axis.set(xscale="log", yscale="log", xlabel="d over that of the finest",
              ylabel="speed-up of the confined test")
-    axis.legend(fontsize=8, frameon=False)
+    _legend(axis)
     return _save(figure, path)

@@ -19,7 +19,7 @@ from .fits import (FreeExponent, flow_function, free_exponents, proportion_of, s
                    strength_points)
 from .groups import Group, Key, group_results
 from .html import Page
-from .plan import BASE, VARIED, Plan, Run
+from .plan import BASE, FACTORS, VARIED, Plan, Run
 from .runs import read_marker
 from .specimens import Confined, Unconfined
 from .strength_tables import HEADER, cells, with_error, write_curves, write_table
@@ -34,8 +34,13 @@ class Study:
     rows: List[Row]
     fits: List[FreeExponent]
     similar: List[Similar]
-    #: how many runs of the plan are not finished, or are of other in-files or another LAMMPS
+    #: runs of the plan that are finished, by just these in-files and this LAMMPS; and how many not
+    runs: List[Run]
     missing: int
+
+    @property
+    def finest_mm(self) -> float:
+        return 1e3 * self.plan.diameters[0]
 
 
 def write(plan: Plan, out: Path, lmp: Path, finished: Callable[[Run], bool]) -> str:
@@ -51,7 +56,8 @@ def write(plan: Plan, out: Path, lmp: Path, finished: Callable[[Run], bool]) -> 
         raise ValueError(f"{out}: no finished run of the base material by these in-files and this "
                          "LAMMPS, so there is nothing to report on")
     study = Study(plan, out, groups, make_rows(groups, plan), free_exponents(groups, plan),
-                  similar_specimens(groups, plan), sum(not there for there in done.values()))
+                  similar_specimens(groups, plan), [run for run in plan.runs if done[run]],
+                  sum(not there for there in done.values()))
     write_table(study.rows, plan.levels, out / "strength.csv")
     write_curves(groups, out / "curves")
     written = _figures(study)
@@ -78,7 +84,7 @@ def _figures(study: Study) -> List[Tuple[Path, str]]:
                         f"Confined compression, {material}: mean over seeds with its standard "
                         "error; strain counts from 5 kPa"))
         if any(g.unconfined for g in groups.values() if g.material.label == material):
-            written.append((figures.unconfined(groups, material,
+            written.append((figures.unconfined(groups, material, study.plan.levels[-1],
                                                out / f"unconfined_{material}.png"),
                             f"Unconfined compression and flow function, {material}"))
     written.append((figures.deviations(study.rows, out / "deviations.png"),
@@ -108,7 +114,8 @@ def _summary(study: Study) -> str:
     if study.missing:
         lines += [f"{study.missing} of {len(study.plan.runs)} runs are not there, or are of other "
                   "in-files or another LAMMPS: the figures are without them", ""]
-    lines += _in_columns([[c.what, c.limit, c.measured, c.verdict] for c in claims(study.rows)])
+    lines += _in_columns([[c.what, c.limit, c.measured, c.verdict]
+                          for c in claims(study.rows, study.finest_mm)])
     if study.similar:
         lines += ["", "As many particles in specimens as many diameters wide and high, coarse "
                       "beside fine:"]
@@ -123,7 +130,8 @@ def _summary(study: Study) -> str:
     for fit in study.fits:
         lines.append(f"exponent of {fit.what} against d, left free to match {fit.response} of "
                      f"{1e3 * fit.reference_diameter:g} mm: {with_error(fit.exponent, 3)} "
-                     f"(scaling law: {fit.expected:g})")
+                     f"(scaling law: {fit.expected:g})"
+                     + (", beyond the factors that were run" if fit.extrapolated else ""))
     ends = (study.plan.diameters[0], study.plan.diameters[-1])
     for group in study.groups.values():
         flow = flow_function(group)
@@ -156,7 +164,8 @@ def _fill(page: Page, study: Study, lmp: Path, written: Sequence[Tuple[Path, str
     plan, out = study.plan, study.out
     page.heading("What was to be shown")
     page.table(["", "limit", "measured", "met"],
-               [[c.what, c.limit, c.measured, c.verdict] for c in claims(study.rows)])
+               [[c.what, c.limit, c.measured, c.verdict]
+                for c in claims(study.rows, study.finest_mm)])
     page.preformatted(_summary(study))
     page.heading("How it was measured")
     for text in METHOD:
@@ -164,19 +173,21 @@ def _fill(page: Page, study: Study, lmp: Path, written: Sequence[Tuple[Path, str
     page.heading("Every group of runs")
     page.paragraph("Deviations are from the finest scaled particles of the same material, named in "
                    "the column `reference` (at another strain rate: from the same packings at the "
-                   "usual one, seed by seed); ± is the standard error over seeds. Strain, "
+                   "usual one, curve and strength seed by seed); ± is the standard error over "
+                   "seeds. A root mean square distance is above zero by about its standard error "
+                   "where nothing is apart. `crushed` are seeds with the strength shown. Strain, "
                    "porosity, Z are those at 90% of the last level; moduli, lateral ratio are "
                    "those of unloading from it; strength and crushing are those after it. Steps, "
                    "seconds (of processor time) and speed-up are of the confined test, and of the "
                    "whole run with the making of the specimen.")
-    page.table(HEADER, [cells(row) for row in study.rows])
+    page.table(HEADER, [cells(row, plan.levels[-1]) for row in study.rows])
     page.heading("Figures")
     for path, caption in written:
         page.picture(path, caption)
     page.heading("Packings before and after failure")
     page.paragraph("The rear half of the specimen, each particle in the colour of its contact "
                    "stress: blue in tension, red in compression, 50 kPa at full colour.")
-    for run in plan.runs:
+    for run in study.runs:
         if isinstance(run, Unconfined) and run.images:
             pair = [next(iter(sorted(folder_of(out, run).glob(f"{stage}.*.png"))), None)
                     for stage in ("free", "crush")]
@@ -208,15 +219,16 @@ METHOD = (
     "across them are gone), left for 10 ms and crushed at 0.3/s to 75% of the peak stress or beyond. "
     "The upper platen is held where it came to rest, so that crushing starts within about 1 kPa "
     "of zero. Stress is force over the cross-section before crushing, and so is the porosity in "
-    "the files of crushing. Strength is the vertex of the parabola through the samples around the "
-    "peak, above 90% of it.",
+    "the files of crushing. Strength is the top of the cubic through the samples around the peak, "
+    "above 80% of it.",
     "Moduli: rise of axial and of mean stress over strain between 95% and 50% of the stress that "
     "unloading began at. Inertial number: strain rate times d times sqrt(density/stress), the "
     "largest on loading. Deviation of a curve: root mean square distance from the reference's mean "
     "over the strain that both have, in % of its peak stress.",
     "Z counts contacts between particles for both and contacts with a platen for one, of all "
     "particles; Z of the bulk is of the grains two diameters and more away from the platens.",
-    "Exponents: at each coarse diameter a coefficient is multiplied by 0.8 and 1.25 on top of the "
+    f"Exponents: at each coarse diameter a coefficient is multiplied by {FACTORS[0]:g} and "
+    f"{FACTORS[1]:g} on top of the "
     "scaling law; seed by seed, the factor that gives the finest particles' mean response is read "
     "off a line through the logarithms, and over diameters makes an exponent. k_adh is varied in "
     "the base material, f0 in one without k_adh.")
@@ -224,8 +236,7 @@ METHOD = (
 
 def _versions(study: Study, lmp: Path) -> str:
     """Of the runs, and of what made the report."""
-    markers = [read_marker(folder_of(study.out, run)) for run in study.plan.runs
-               if (folder_of(study.out, run) / "done.json").is_file()]
+    markers = [read_marker(folder_of(study.out, run)) for run in study.runs]
 
     def noted(name: str) -> str:
         return ", ".join(sorted({str(marker.get(name, "unknown")) for marker in markers}))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import math
 import re
+import shutil
 from pathlib import Path
 from typing import Dict, List, Sequence
 
@@ -28,7 +29,7 @@ def with_error(value: Value, digits: int, factor: float = 1.0) -> str:
     return (f"{text} ± {factor * value.error:.{digits}f}" if math.isfinite(value.error) else text)
 
 
-HEADER = ["material", "mode", "", "d (mm)", "reference (mm)", "particles", "seeds",
+HEADER = ["material", "mode", "", "d (mm)", "reference (mm)", "particles", "seeds", "crushed",
           "inertial number", "loading (% of peak)", "scatter of seeds (%)", "unloading (%)",
           "strain (%)", "porosity", "Z", "Z off (%)", "Z of the bulk", "off (%)",
           "modulus (MPa)", "bulk modulus (MPa)", "K off (%)", "lateral ratio", "Z on cutting (%)",
@@ -36,16 +37,17 @@ HEADER = ["material", "mode", "", "d (mm)", "reference (mm)", "particles", "seed
           "whole run, s", "speed-up", "(d/d0)^4"]
 
 
-def cells(row: Row) -> List[str]:
-    last = max(row.strength, default=None)
+def cells(row: Row, last: float) -> List[str]:
+    """:param last: the level, Pa, that strength and crushing are after"""
 
     def of_last(values: Dict[float, Value], digits: int, factor: float = 1.0) -> str:
         return with_error(values[last], digits, factor) if last in values else ""
 
-    return [row.material, row.mode, row.special, f"{row.diameter_mm:g}", f"{row.reference_mm:g}",
-            str(row.particles), str(row.seeds), f"{row.inertial_number:.1e}",
+    return [row.material, row.mode, row.special, f"{row.diameter_mm:g}",
+            _number(row.reference_mm, "g"), str(row.particles), str(row.seeds), str(row.crushed),
+            f"{row.inertial_number:.1e}",
             with_error(row.loading_deviation, 2),
-            f"{row.loading_scatter:.2f}" if math.isfinite(row.loading_scatter) else "",
+            _number(row.loading_scatter, ".2f"),
             with_error(row.unloading_deviation, 2), with_error(row.strain, 3, 100.0),
             with_error(row.porosity, 4), with_error(row.coordination, 3),
             with_error(row.coordination_deviation, 2), with_error(row.bulk_coordination, 3),
@@ -56,13 +58,17 @@ def cells(row: Row) -> List[str]:
             of_last(row.strength_deviation, 1), of_last(row.crush_deviation, 1),
             f"{row.steps:.0f}", f"{row.seconds:.2f}", with_error(row.speed_up, 1),
             f"{row.whole_seconds:.2f}", with_error(row.whole_speed_up, 1),
-            f"{row.expected_speed_up:.1f}"]
+            _number(row.expected_speed_up, ".1f")]
+
+
+def _number(value: float, form: str) -> str:
+    return format(value, form) if math.isfinite(value) else ""
 
 
 def write_table(rows: Sequence[Row], levels: Sequence[float], path: Path) -> None:
     """Every row and value; SI units, deviations in %."""
     plain = ["material", "mode", "special", "strain_rate", "diameter_mm", "width_mm",
-             "reference_mm", "particles", "seeds", "inertial_number", "crush_inertial_number",
+             "reference_mm", "particles", "seeds", "crushed", "not_failed", "inertial_number", "crush_inertial_number",
              "loading_mean_deviation", "loading_scatter", "steps", "seconds", "whole_steps",
              "whole_seconds", "expected_speed_up"]
     names = plain + [f"{name}{end}" for name in VALUES for end in ("", "_error")]
@@ -94,8 +100,10 @@ def _plain(value: object) -> object:
 
 
 def write_curves(groups: Dict[Key, Group], folder: Path) -> None:
-    """Mean and standard error over seeds of every curve, a file for each group and test."""
-    folder.mkdir(parents=True, exist_ok=True)
+    """Mean and standard error over seeds of every curve, a file for each group and test; nothing
+    else stays in the folder."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
     for (material, mode, diameter, special), group in groups.items():
         name = f"{material}_{mode}_d{1e3 * diameter:g}mm"
         if special:
