@@ -166,8 +166,8 @@ def paired_strength(group: Group, reference: Group, level: float) -> Value:
 
 @dataclass(frozen=True)
 class Similar:
-    """Coarse particles beside as many finer ones in a specimen as many diameters wide and high: what
-    is left between them is the law's and inertia's, not the specimen's."""
+    """Coarse particles beside as many finer ones in a specimen as many diameters wide and high:
+    what is left between them is the law's and inertia's, not the specimen's."""
 
     diameter_mm: float
     width_mm: float

@@ -210,7 +210,7 @@ def paired_deviation(pairs: Sequence[Tuple[np.ndarray, np.ndarray]], grid: np.nd
     """The same of tests of the same packings: pairs of values on the grid, the second one the
     reference. The error is that of the mean of the pairs' differences."""
     apart = mean_of(grid, [one - reference for one, reference in pairs])
-    return _deviation(apart.value, apart.error, mean_of(grid, [reference for _, reference in pairs]))
+    return _deviation(apart.value, apart.error, mean_of(grid, [second for _, second in pairs]))
 
 
 def _deviation(apart: np.ndarray, error: np.ndarray, reference: Mean) -> Deviation:

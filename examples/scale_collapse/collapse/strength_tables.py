@@ -68,7 +68,8 @@ def _number(value: float, form: str) -> str:
 def write_table(rows: Sequence[Row], levels: Sequence[float], path: Path) -> None:
     """Every row and value; SI units, deviations in %."""
     plain = ["material", "mode", "special", "strain_rate", "diameter_mm", "width_mm",
-             "reference_mm", "particles", "seeds", "crushed", "not_failed", "inertial_number", "crush_inertial_number",
+             "reference_mm", "particles", "seeds", "crushed", "not_failed", "inertial_number",
+             "crush_inertial_number",
              "loading_mean_deviation", "loading_scatter", "steps", "seconds", "whole_steps",
              "whole_seconds", "expected_speed_up"]
     names = plain + [f"{name}{end}" for name in VALUES for end in ("", "_error")]
