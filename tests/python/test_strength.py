@@ -224,8 +224,8 @@ class Measured(unittest.TestCase):
         strain = np.linspace(2e-4, 0.03, 150)
         curve = 1.0e4 * 2.718281828 * strain / 0.01 * np.exp(-strain / 0.01)
         kernel = np.ones(6) / math.sqrt(6.0)
-        scattered = [curve + 0.05 * curve * np.convolve(random.standard_normal(155), kernel, "valid")
-                     for _ in range(300)]
+        scattered = [curve * (1.0 + np.convolve(0.05 * random.standard_normal(155), kernel,
+                                                "valid")) for _ in range(300)]
         found = np.mean([measured.strength_of(strain, some)[0] for some in scattered])
         self.assertAlmostEqual(found / 1.0e4, 1.0, delta=0.008)
         # what the largest mean of five samples would make of it
