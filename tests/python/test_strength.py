@@ -317,7 +317,7 @@ class Plan(unittest.TestCase):
         special = [r for r in full.runs if isinstance(r, Confined) and r.side != full.side]
         self.assertEqual({(r.diameter, round(r.side, 9), r.particles) for r in special},
                          {(1.0e-3, 10.0e-3, 1200), (1.0e-3, 15.0e-3, 4050),
-                          (3.0e-3, 60.0e-3, 4800)})
+                          (2.0e-3, 60.0e-3, 32400), (3.0e-3, 60.0e-3, 9600)})
         self.assertEqual({groups.special_of(r, full) for r in special},
                          {"10 mm wide", "15 mm wide", "60 mm wide"})
 

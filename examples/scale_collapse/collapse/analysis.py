@@ -184,8 +184,7 @@ def similar_specimens(groups: Dict[Key, Group], plan: Plan) -> List[Similar]:
     base = [g for g in groups.values() if g.material == BASE and g.mode == "scaled"
             and g.strain_rate == Confined.strain_rate]
     return [_similar(coarse, fine, comparison_stress(plan))
-            for fine in base if fine.special
-            for coarse in base if not coarse.special and coarse.diameter > fine.diameter
+            for fine in base for coarse in base if coarse.diameter > fine.diameter
             and np.isclose(coarse.side / coarse.diameter, fine.side / fine.diameter)
             and coarse.particles == fine.particles]
 

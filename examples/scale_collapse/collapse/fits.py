@@ -9,7 +9,7 @@ from typing import Callable, Dict, List, Optional, Sequence
 import numpy as np
 
 from .groups import Group, Key, comparison_stress, curve_at_stress
-from .plan import BASE, FACTORS, PULL_OFF, Plan, pulled_harder, stickier, stiffer
+from .plan import BASE, FACTORS, PULL_OFF, VARIED, Plan, pulled_harder, stickier, stiffer
 from .specimens import Material
 from .statistics import (Proportion, Value, best_factors, exponent, exponent_from_reference, pooled,
                          proportion, slope, value_of)
@@ -42,6 +42,8 @@ class StrengthPoint:
     """sigma_u d^2/f_at against Z (1 - porosity): Thakur et al., Granular Matter 16 (2014) 383."""
 
     material: str
+    #: whether attraction grows with plastic overlap; else all contacts have the same
+    plastic: bool
     mode: str
     diameter: float
     level: float
@@ -50,16 +52,19 @@ class StrengthPoint:
 
 
 def strength_points(groups: Dict[Key, Group]) -> List[StrengthPoint]:
-    """Of the specimens that are compared with each other. Those of a group are of the same
-    packings, so that the error of a fit through all points is rather too small."""
+    """Of the specimens that are compared with each other, without those of the fits. Those of a
+    group are of the same packings, so that the error of a fit through all points is rather too
+    small."""
     return [StrengthPoint(
-        group.material.label, group.mode, group.diameter, level,
+        group.material.label, group.material.kadh > 0.0, group.mode, group.diameter, level,
         value_of([r.coordination * (1.0 - r.porosity) for r in group.crushed(level)]),
         value_of([r.strength * group.diameter**2 / r.pull_off for r in group.crushed(level)]))
-        for group in groups.values() if not group.special for level in sorted(group.unconfined)]
+        for group in groups.values() if not group.special and group.material not in VARIED
+        for level in sorted(group.unconfined)]
 
 
 def proportion_of(points: Sequence[StrengthPoint]) -> Proportion:
+    """Of points that are all plastic, or none of them."""
     return proportion([p.packing.value for p in points],
                       [p.reduced_strength.value for p in points])
 

@@ -178,12 +178,12 @@ def _add_fits(some: _Collector, fitted: Sequence[float], pull_off_reference: flo
 def _add_sizes(some: _Collector, finest: float, coarse: Sequence[float], seeds: int) -> None:
     """Is a deviation one of the diameter or of the number of particles across the specimen? The
     finest particles in specimens as many diameters wide and high as those of the coarse ones, and
-    the coarsest in wider ones."""
+    the coarse ones in specimens twice as wide and high."""
     for diameter in coarse:
         similar = finest / diameter
         some.add(BASE, [finest], ("scaled",), some.levels, width=similar, height=similar)
-    some.add(BASE, [coarse[-1]], ("scaled",), (some.levels[0], some.levels[-1]), seeds=seeds,
-             width=2.0)
+    some.add(BASE, coarse, ("scaled",), (some.levels[0], some.levels[-1]), seeds=seeds, width=2.0,
+             height=2.0)
 
 
 def describe(plan: Plan, jobs: int, particle_steps: float) -> str:

@@ -175,10 +175,13 @@ def micromechanics(points: Sequence[StrengthPoint], path: Path) -> Path:
                       _errors([p.packing.error for p in some]), linestyle="none",
                       marker="osD^v<>pP*X"[k % 11], markersize=4, capsize=2,
                       color=COLOURS[k % len(COLOURS)], label=f"{material}, {mode}")
-    line = proportion_of(points)
     reach = np.array([0.0, 1.05 * max(p.packing.value for p in points)])
-    axis.plot(reach, line.constant * reach, color="black", linewidth=0.8,
-              label=f"{line.constant:.3f} Z (1 - n)")
+    for plastic, form in ((True, "-"), (False, ":")):
+        some = [p for p in points if p.plastic == plastic]
+        if some:
+            constant = proportion_of(some).constant
+            axis.plot(reach, constant * reach, form, color="black", linewidth=0.8,
+                      label=f"{constant:.3f} Z (1 - n)")
     axis.set_xlabel("Z (1 - n) before crushing")
     axis.set_ylabel(r"$\sigma_u d^2 / f_{at}$")
     _legend(axis)

@@ -139,14 +139,15 @@ def _summary(study: Study) -> str:
             lines.append(f"flow function, {group.material.label} {group.mode} "
                          f"{1e3 * group.diameter:g} mm: strength rises by "
                          f"{with_error(flow.slope, 4)} of the consolidation stress")
-    points = strength_points(study.groups)
-    if points:
-        line = proportion_of(points)
-        free = f", exponent {with_error(line.exponent, 2)} when free" if line.exponent else ""
-        span = [p.packing.value for p in points]
-        lines.append(f"sigma_u d^2/f_at = {line.constant:.4f} Z (1 - n), "
-                     f"{line.scatter_percent:.1f}% scatter over {len(points)} points{free}; Z "
-                     f"(1 - n) goes from {min(span):.2f} to {max(span):.2f} only")
+    for plastic, name in ((True, "with k_adh"), (False, "f0 alone")):
+        points = [p for p in strength_points(study.groups) if p.plastic == plastic]
+        if points:
+            line = proportion_of(points)
+            free = f", exponent {with_error(line.exponent, 2)} when free" if line.exponent else ""
+            span = [p.packing.value for p in points]
+            lines.append(f"sigma_u d^2/f_at, {name} = {line.constant:.4f} Z (1 - n), "
+                         f"{line.scatter_percent:.1f}% scatter over {len(points)} points{free}; Z "
+                         f"(1 - n) goes from {min(span):.2f} to {max(span):.2f} only")
     for mode in ("scaled", "unscaled"):
         speed = speed_exponent(study.groups, mode)
         if speed:
