@@ -19,10 +19,10 @@ def commit() -> str:
 
 
 def lammps(lmp: Path) -> str:
-    """The line of a LAMMPS that names its version."""
-    return next((line.strip() for line in _said(str(lmp), "-h").splitlines()
-                 if "Discrete Particle" not in line and "LAMMPS" in line
-                 or line.startswith("Large-scale")), "unknown")
+    """Name and version."""
+    head = next((line for line in _said(str(lmp), "-h").splitlines()
+                 if line.startswith("Large-scale")), "- unknown")
+    return "LAMMPS " + head.split(" - ")[-1].lstrip("- ").strip()
 
 
 def mpi(mpirun: str = "mpirun") -> str:
