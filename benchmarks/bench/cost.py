@@ -13,7 +13,8 @@ from .output import text_table
 from .statistics import column, median, paired_ratios
 from .styles import DAMPED, GRANULAR, GRANULAR_DAMPED, HOOKE
 
-STYLES = (HOOKE, DAMPED, GRANULAR, GRANULAR_DAMPED, "gran/eepa elastic", "gran/eepa full", "gran/eepa sds")
+STYLES = (HOOKE, DAMPED, GRANULAR, GRANULAR_DAMPED, "gran/eepa elastic", "gran/eepa full",
+          "gran/eepa sds")
 
 
 def measure(program: Program, case: Case, styles: Sequence[str], rounds: int,

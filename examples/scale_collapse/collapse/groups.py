@@ -12,7 +12,7 @@ import numpy as np
 from . import curves as cv
 from .cases import folder_of
 from .measured import ConfinedResult, Cost, UnconfinedResult, load_confined, load_unconfined
-from .plan import Plan, Run
+from .plan import Plan, Run, special_of
 from .specimens import Confined, Material, Unconfined
 from .statistics import Value, ratio_of_means, value_of
 
@@ -63,16 +63,6 @@ class Group:
                    for level, results in self.unconfined.items()}
         return replace(self, confined={s: r for s, r in self.confined.items() if s in seeds},
                        unconfined={level: results for level, results in crushed.items() if results})
-
-
-def special_of(specimen: Confined, plan: Plan) -> str:
-    """What makes a specimen another than those that are compared over the diameters."""
-    words = []
-    if specimen.strain_rate != Confined.strain_rate:
-        words.append(f"{specimen.strain_rate:g}/s")
-    if specimen.side != plan.side:
-        words.append(f"{1e3 * specimen.side:g} mm wide")
-    return ", ".join(words)
 
 
 def group_results(plan: Plan, out: Path, finished: Callable[[Run], bool]) -> Dict[Key, Group]:

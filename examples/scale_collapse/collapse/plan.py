@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Dict, List, Optional, Sequence, Tuple, Union
 
-from .cases import is_scaled
+from .cases import MODES, is_scaled
 from .specimens import Confined, Material, Unconfined, pull_off_force
 
 Run = Union[Confined, Unconfined]
@@ -114,9 +114,6 @@ class _Collector:
                         self.runs.append(Unconfined(one, level, pictured))
 
 
-BOTH = ("scaled", "unscaled")
-
-
 def full(seeds: int = 5, fine_seeds: Optional[int] = None) -> Plan:
     """The study: specimens ten diameters of the largest particle wide.
 
@@ -154,7 +151,7 @@ def quick(seeds: int = 2) -> Plan:
     """Every kind of run on specimens far too small to mean anything: tries the machinery."""
     sizes, levels = (2.0e-3, 3.0e-3), (16.0e3, 36.0e3)
     some = _Collector(levels, 15.0e-3, 8100, seeds)
-    some.add(BASE, sizes, BOTH, levels)
+    some.add(BASE, sizes, MODES, levels)
     some.add(COHESIONLESS, sizes[1:], ("scaled",), ())
     some.add(PLATEAU, sizes[1:], ("scaled",), levels[-1:])
     some.add(SETS[0], sizes[1:], ("scaled",), levels[-1:], seeds=1)
@@ -186,6 +183,16 @@ def _add_sizes(some: _Collector, finest: float, coarse: Sequence[float], seeds: 
              height=2.0)
 
 
+def special_of(specimen: Confined, plan: Plan) -> str:
+    """What makes a specimen another than those that are compared over the diameters."""
+    words = []
+    if specimen.strain_rate != Confined.strain_rate:
+        words.append(f"{specimen.strain_rate:g}/s")
+    if specimen.side != plan.side:
+        words.append(f"{1e3 * specimen.side:g} mm wide")
+    return ", ".join(words)
+
+
 def describe(plan: Plan, jobs: int, particle_steps: float) -> str:
     """The plan as a table: what, how many, and about how long."""
     lines = [f"{'parameters':<24}{'mode':<10}{'d (mm)':>7}{'particles':>11}{'seeds':>7}{'runs':>6}"
@@ -193,11 +200,7 @@ def describe(plan: Plan, jobs: int, particle_steps: float) -> str:
     groups: Dict[Tuple, List[Run]] = {}
     for run in plan.runs:
         one = run if isinstance(run, Confined) else run.specimen
-        label = one.material.label
-        if one.strain_rate != Confined.strain_rate:
-            label += f" {one.strain_rate:g}/s"
-        if one.side != plan.side:
-            label += f" {1e3 * one.side:g} mm wide"
+        label = f"{one.material.label} {special_of(one, plan)}".rstrip()
         groups.setdefault((label, one.mode, one.diameter), []).append(run)
     for (label, mode, diameter), runs in groups.items():
         specimens = [run for run in runs if isinstance(run, Confined)]

@@ -218,8 +218,8 @@ METHOD = (
     "platens and counts from 5 kPa. The specimen is unloaded from the last level.",
     "Unconfined: each level is unloaded, left for 10 ms, its periodic sides are opened (contacts "
     "across them are gone), left for 10 ms and crushed at 0.3/s to 75% of the peak stress or "
-    "beyond. The upper platen is held where it came to rest, so that crushing starts within about "
-    "1 kPa of zero. Stress is force over the cross-section before crushing, and so is the porosity "
+    "beyond. The upper platen is held where it came to rest, so that crushing starts within 1 to "
+    "2 kPa of zero. Stress is force over the cross-section before crushing, and so is the porosity "
     "in the files of crushing. Strength is the top of the cubic through the samples around the "
     "peak, above 80% of it.",
     "Moduli: rise of axial and of mean stress over strain between 95% and 50% of the stress that "
