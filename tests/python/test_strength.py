@@ -315,11 +315,17 @@ class Plan(unittest.TestCase):
     def test_sizes_of_specimens_are_told_apart(self):
         full = plan.full()
         special = [r for r in full.runs if isinstance(r, Confined) and r.side != full.side]
-        self.assertEqual({(r.diameter, round(r.side, 9), r.particles) for r in special},
-                         {(1.0e-3, 10.0e-3, 1200), (1.0e-3, 15.0e-3, 4050),
-                          (2.0e-3, 60.0e-3, 32400), (3.0e-3, 60.0e-3, 9600)})
-        self.assertEqual({groups.special_of(r, full) for r in special},
-                         {"10 mm wide", "15 mm wide", "60 mm wide"})
+        def sizes(material):
+            return {(r.diameter, round(r.side, 9), r.particles) for r in special
+                    if r.material == material}
+        self.assertEqual(sizes(plan.BASE), {
+            (1.0e-3, 10.0e-3, 1200), (1.0e-3, 12.0e-3, 2074), (1.0e-3, 15.0e-3, 4050),
+            (2.0e-3, 60.0e-3, 32400), (3.0e-3, 60.0e-3, 9600)})
+        # as wide in diameters, but for the rounding, as those of 3, 2.5 and 2 mm
+        self.assertEqual(sizes(plan.PULL_OFF), {
+            (1.5e-3, 15.0e-3, 1200), (1.5e-3, 18.0e-3, 2073), (1.5e-3, 22.5e-3, 4050)})
+        self.assertEqual({groups.special_of(r, full) for r in special}, {
+            f"{width} mm wide" for width in ("10", "12", "15", "18", "22.5", "60")})
 
     def test_bad_specimens_are_named(self):
         for change, text in (({"levels": ()}, "rising stresses"),
@@ -337,6 +343,22 @@ class Plan(unittest.TestCase):
             one = replace(SPECIMEN, scaled=scaled)
             self.assertAlmostEqual(one.pressure_rate / (one.material.k1 * one.size / one.diameter),
                                    one.strain_rate)
+
+    def test_unloading_gives_waves_the_time_to_pass(self):
+        def unloading(specimen, level):
+            specimen = replace(specimen, levels=(level, 96.0e3))
+            seconds = (Unconfined(specimen, level).expected_steps() * specimen.time_step
+                       - 2.0 * specimens.HOLD - specimens.CRUSHING_STRAIN
+                       / Unconfined(specimen, level).crushing_rate)
+            return round(seconds / specimen.wave_passage, 1)
+        wide = replace(SPECIMEN, side=2.0 * SPECIMEN.side,
+                       reference_particles=8 * SPECIMEN.reference_particles)
+        self.assertAlmostEqual(wide.wave_passage, 2.0 * SPECIMEN.wave_passage, delta=1e-6)
+        self.assertEqual(unloading(SPECIMEN, 16.0e3), specimens.TRANSITS)
+        self.assertEqual(unloading(wide, 16.0e3), specimens.TRANSITS)
+        self.assertGreater(unloading(SPECIMEN, 76.0e3), 2.5 * specimens.TRANSITS)
+        text = (STUDY / "in.unconfined").read_text(encoding="utf-8")
+        self.assertIn(f"variable transits  index {specimens.TRANSITS:g} ", text)
 
     def test_crushing_reads_the_level_of_its_specimen(self):
         launcher = runs.Launcher(Path("/x/lmp"), STUDY / "in.confined")

@@ -142,7 +142,7 @@ def full(seeds: int = 5, fine_seeds: Optional[int] = None) -> Plan:
     for material in SETS:
         some.add(material, coarse, ("scaled",), ends, seeds=3)
     _add_fits(some, fitted, coarse[0], slowed, seeds=3)
-    _add_sizes(some, sizes[0], coarse[1:], seeds=3)
+    _add_sizes(some, sizes[0], coarse[0], fitted, coarse[1:], seeds=3)
     return Plan(tuple(dict.fromkeys(some.runs)), sizes, levels, some.side, fitted, coarse[0],
                 slowed, False)
 
@@ -156,7 +156,7 @@ def quick(seeds: int = 2) -> Plan:
     some.add(PLATEAU, sizes[1:], ("scaled",), levels[-1:])
     some.add(SETS[0], sizes[1:], ("scaled",), levels[-1:], seeds=1)
     _add_fits(some, sizes[1:], sizes[0], sizes[1], seeds=1)
-    _add_sizes(some, sizes[0], sizes[1:], seeds=1)
+    _add_sizes(some, sizes[0], sizes[0], sizes[1:], sizes[1:], seeds=1)
     return Plan(tuple(dict.fromkeys(some.runs)), sizes, levels, some.side, sizes[1:], sizes[0],
                 sizes[1], True)
 
@@ -172,15 +172,17 @@ def _add_fits(some: _Collector, fitted: Sequence[float], pull_off_reference: flo
     some.add(BASE, [slowed], ("scaled",), last, rate=0.5 * Confined.strain_rate, seeds=seeds)
 
 
-def _add_sizes(some: _Collector, finest: float, coarse: Sequence[float], seeds: int) -> None:
+def _add_sizes(some: _Collector, finest: float, pull_off_reference: float,
+               coarse: Sequence[float], doubled: Sequence[float], seeds: int) -> None:
     """Is a deviation one of the diameter or of the number of particles across the specimen? The
     finest particles in specimens as many diameters wide and high as those of the coarse ones, and
-    the coarse ones in specimens twice as wide and high."""
-    for diameter in coarse:
-        similar = finest / diameter
-        some.add(BASE, [finest], ("scaled",), some.levels, width=similar, height=similar)
-    some.add(BASE, coarse, ("scaled",), (some.levels[0], some.levels[-1]), seeds=seeds, width=2.0,
-             height=2.0)
+    some of the coarse ones in specimens twice as wide and high."""
+    for material, fine, levels in ((BASE, finest, some.levels),
+                                   (PULL_OFF, pull_off_reference, some.levels[-1:])):
+        for diameter in coarse:
+            similar = fine / diameter
+            some.add(material, [fine], ("scaled",), levels, width=similar, height=similar)
+    some.add(BASE, doubled, ("scaled",), some.levels, seeds=seeds, width=2.0, height=2.0)
 
 
 def special_of(specimen: Confined, plan: Plan) -> str:

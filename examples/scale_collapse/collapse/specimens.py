@@ -19,6 +19,8 @@ PACKING_STRAIN, CRUSHING_STRAIN, RELAXING_STEPS = 0.06, 0.03, 2000
 #: As in.confined has them: s, and parts of the strain rate up to the first level and of crushing.
 HOLD, FIRST, CRUSHING = 0.01, 0.4, 0.6
 PACKING_STRESS = 4.0e3
+#: Of a stress wave through the specimen, while in.unconfined unloads it, at least.
+TRANSITS = 14.0
 
 
 def pull_off_force(tensile_strength: float, diameter: float, porosity: float = POROSITY) -> float:
@@ -135,6 +137,14 @@ class Confined:
         """Of loading, Pa/s, as in.confined has it."""
         return self.strain_rate * self.material.k1 * self.size / self.diameter
 
+    @property
+    def wave_passage(self) -> float:
+        """Time in which a stress wave passes the specimen, s, as in.unconfined has it."""
+        grains = self.particles * math.pi / 6.0 * self.diameter**3 / self.side**2
+        height = grains / (1.0 - POROSITY)
+        stiffness = self.pressure_rate / self.strain_rate
+        return math.sqrt(DENSITY * grains * height / stiffness)
+
     def variables(self) -> List[str]:
         """The -var arguments of LAMMPS."""
         values: Dict[str, Any] = {
@@ -217,8 +227,9 @@ class Unconfined:
         return ["-var", "images", "yes" if self.images else "no"]
 
     def expected_steps(self) -> int:
-        seconds = (2.0 * HOLD + 0.5 * self.level / self.specimen.pressure_rate
-                   + CRUSHING_STRAIN / self.crushing_rate)
+        one = self.specimen
+        unloading = max(0.5 * self.level / one.pressure_rate, TRANSITS * one.wave_passage)
+        seconds = 2.0 * HOLD + unloading + CRUSHING_STRAIN / self.crushing_rate
         return round(seconds / self.specimen.time_step)
 
     def fingerprint(self, inputs: Sequence[bytes], ranks: int) -> str:
