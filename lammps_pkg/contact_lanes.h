@@ -43,10 +43,7 @@ class ContactLanes {
     const eepa::ResponseOf<eepa::Lanes> response =
         ContactLaw::evaluate(c, limit_damping, contact_, time_step, history);
     eepa::store_history<rolling_spring>(history, history_);
-    for (int lane = 0; lane < width; lane++)
-      *found_[lane].status =
-          ContactStatus::of(static_cast<eepa::Branch>(static_cast<int>(response.branch[lane])),
-                            response.sliding[lane]);
+    store_status(response);
 
     const Vector moment = ContactLaw::tangential_moment(response, contact_);
     Vector torque_i = -arm_i_ * moment, torque_j = -arm_j_ * moment;
@@ -106,6 +103,18 @@ class ContactLanes {
       for (int lane = 0; lane < width; lane++)
         slice.note_depth(found_[lane].i, found_[lane].j, contact_.overlap[lane],
                          smaller_radius[lane]);
+  }
+
+  /// ContactStatus::of() of every lane; a branch is a double there, and its bits are added.
+  EEPA_FUNCTION void store_status(const eepa::ResponseOf<eepa::Lanes> &response) const
+  {
+    using eepa::Lanes;
+    namespace simd = std::experimental;
+    Lanes status = Lanes(ContactStatus::touching) +
+        Lanes(1 << ContactStatus::branch_shift) * response.branch;
+    where(response.sliding, status) += Lanes(ContactStatus::sliding);
+    const auto whole = simd::static_simd_cast<simd::rebind_simd_t<int, Lanes>>(status);
+    for (int lane = 0; lane < width; lane++) *found_[lane].status = whole[lane];
   }
 
   EEPA_FUNCTION void scatter(const Vector &force, const Vector &torque_i, const Vector &torque_j,

@@ -133,7 +133,17 @@ EEPA_FUNCTION void prefetch_partner(std::ptrdiff_t j, const ParticleArrays &p, c
 EEPA_FUNCTION void PairGranEepa::prefetch_neighbors(int place, int end, const double *f,
                                                     const double *torque) const
 {
-  constexpr int soon = 8, later = 16;    // particles on
+  constexpr int soon = 8, later = 16, much_later = 32;    // particles on
+  // where the rows begin is known from arrays that are not in the cache either
+  constexpr int pointers_in_line = 8;
+  if (place % pointers_in_line == 0 && place + 2 * much_later < end) {
+    prefetch(list->ilist + place + 2 * much_later);
+    const int first = list->ilist[place + much_later];
+    prefetch(list->numneigh + first);
+    prefetch(list->firstneigh + first);
+    prefetch(fix_history->firstflag + first);
+    prefetch(fix_history->firstvalue + first);
+  }
   if (place + later >= end) return;
   const int far = list->ilist[place + later], near = list->ilist[place + soon];
   prefetch(list->firstneigh[far]);
@@ -147,6 +157,14 @@ EEPA_FUNCTION void PairGranEepa::prefetch_neighbors(int place, int end, const do
 }
 
 /* ---------------------------------------------------------------------- finding contacts */
+
+namespace {
+#ifdef EEPA_HAS_LANES
+constexpr int side_by_side = ContactLanes::width;
+#else
+constexpr int side_by_side = 1;
+#endif
+}    // namespace
 
 void PairGranEepa::work_through(ContactSlice &slice)
 {
@@ -163,7 +181,7 @@ void PairGranEepa::work_through(ContactSlice &slice)
   constexpr int cached_particles = 65536;
   const bool far_from_cache = slice.end - slice.begin > cached_particles;
 
-  int count = 0;
+  std::ptrdiff_t count = 0;
   for (int ii = slice.begin; ii < slice.end; ii++) {
     const int i = ilist[ii];
     const int *neighbors = firstneigh[i];
@@ -175,7 +193,7 @@ void PairGranEepa::work_through(ContactSlice &slice)
     if (far_from_cache) prefetch_neighbors(ii, slice.end, f, torque);
 
     // most neighbours do not touch: they cost one distance, and their place is overwritten
-    if (static_cast<int>(slice.touching.size()) < count + jnum)
+    if (static_cast<std::ptrdiff_t>(slice.touching.size()) < count + jnum)
       slice.touching.resize(count + jnum + ContactSlice::block);
     TouchingPair *touching = slice.touching.data();
     for (int jj = 0; jj < jnum; jj++) {
@@ -186,14 +204,18 @@ void PairGranEepa::work_through(ContactSlice &slice)
       const int touches = dx * dx + dy * dy + dz * dz < reach * reach;
       touching[count] = {i, jj};
       count += touches;
-      if ((status[jj] != 0) > touches) open_contact(slice, i, jj);
+      // a status other than 0, and not touching: all bits of touches - 1 are set
+      if (status[jj] & (touches - 1)) open_contact(slice, i, jj);
     }
     if (count >= ContactSlice::block) {
-      evaluate_block(slice, count);
-      count = 0;
+      // what would not fill the lanes waits for the next block
+      const std::ptrdiff_t whole = count - count % side_by_side;
+      evaluate_block(slice, static_cast<int>(whole));
+      std::copy(touching + whole, touching + count, touching);
+      count -= whole;
     }
   }
-  evaluate_block(slice, count);
+  evaluate_block(slice, static_cast<int>(count));
 }
 
 void PairGranEepa::open_contact(ContactSlice &slice, int i, int place)
