@@ -110,6 +110,33 @@ class FreeExponents(unittest.TestCase):
         self.assertFalse(fit.extrapolated)
         self.assertTrue(fits.free_exponents(self.groups(0.4), plan.full())[0].extrapolated)
 
+    def test_an_effect_of_size_is_not_in_the_exponent_at_equal_width(self):
+        """Strength falls by width in diameters^0.2, whatever the diameter is."""
+        full, found = plan.full(), self.groups(0.0)
+        for group in found.values():
+            across = full.side / group.diameter
+            for result in group.unconfined[self.LAST].values():
+                result.strength *= across**0.2
+        finest = full.diameters[0]
+        for diameter in full.fitted[:2]:  # that of the last has not been run
+            across = full.side / diameter
+            one = groups.Group(plan.BASE, finest, "scaled", f"{across:g} wide",
+                               side=finest * across, unconfined={self.LAST: strengths(
+                                   {seed: 1.0e4 * shift * across**0.2
+                                    for seed, shift in self.SCATTER.items()})})
+            found[one.key] = one
+        usual, equal = fits.free_exponents(found, full)
+        self.assertEqual((usual.equal_width, equal.equal_width), (False, True))
+        self.assertAlmostEqual(usual.exponent.value, 1.0 + 0.2 / 0.8, delta=0.01)
+        self.assertAlmostEqual(equal.exponent.value, 1.0, delta=0.01)
+        self.assertEqual(equal.diameters, list(full.fitted[:2]))
+        # both packings' scatter is in each of its points, and none is common to them
+        expected = np.std([math.log(v) for v in self.SCATTER.values()], ddof=1) / 0.8 / 3**0.5
+        self.assertAlmostEqual(equal.logs[0].error, 2**0.5 * expected, delta=0.01)
+        alone = fits.exponent_from_reference([d / finest for d in equal.diameters], [0.0] * 2,
+                                             [equal.logs[0].error] * 2, 0.0)
+        self.assertAlmostEqual(equal.exponent.error, alone.error)
+
 
 def confined_result(size, seed, strain, z=6.0, seconds=10.0, inertial=4e-4):
     """Stress over strain straight to 96 kPa at `strain`; the seeds scatter by 1% in strain."""
@@ -208,11 +235,28 @@ class Rows(unittest.TestCase):
                                       if "strength" in what or "confined test" in what), verdict)
 
     def test_inertial_number_has_a_verdict(self):
-        fine, fast = self.group(1.0e-3), self.group(3.0e-3, special="60 mm wide", side=60e-3)
-        fast.confined = {1: confined_result(1.0, 1, 0.03, inertial=1.1e-3)}
-        found = claims.claims(list(self.rows(fine, fast).values()), 1.0)
-        self.assertEqual([c.verdict for c in found if "inertial number on" in c.what],
-                         ["yes", "NO"])
+        # the base material's counts in specimens of any width, that of all unscaled ones too
+        for mode, special, side, verdicts in (("scaled", "60 mm wide", 60e-3, ["NO", "NO"]),
+                                              ("unscaled", "", 30e-3, ["yes", "NO"])):
+            fine, fast = self.group(1.0e-3), self.group(3.0e-3, mode, special, side=side)
+            fast.confined = {1: confined_result(1.0, 1, 0.03, inertial=1.1e-3)}
+            found = claims.claims(list(self.rows(fine, fast).values()), 1.0)
+            about = [c for c in found if "inertial number on" in c.what]
+            self.assertEqual([c.verdict for c in about], verdicts)
+            self.assertIn(f"{mode}, 3 mm" + (f", {special}" if special else ""), about[1].what)
+
+    def test_wide_specimens_have_the_limits_of_strength(self):
+        some = [self.group(1.0e-3), self.group(2.0e-3, strength=0.9e4),
+                self.group(2.0e-3, special="60 mm wide", side=60e-3, strength=0.96e4),
+                self.group(3.0e-3, special="60 mm wide", side=60e-3, strength=0.91e4),
+                self.group(3.0e-3, special="0.25/s", strain_rate=0.25),
+                self.group(1.0e-3, special="15 mm wide", side=15e-3)]
+        found = {c.what: (c.limit, c.verdict)
+                 for c in claims.claims(list(self.rows(*some).values()), 1.0)
+                 if "wide: strength" in c.what}
+        self.assertEqual(found, {
+            "scaled, 2x, 60 mm wide: strength after 96 kPa": ("<= 5%", "yes"),
+            "scaled, 3x, 60 mm wide: strength after 96 kPa": ("<= 8%", "NO")})
 
     def test_nothing_is_claimed_without_the_finest(self):
         found = claims.claims(list(self.rows(self.group(2.0e-3), self.group(3.0e-3)).values()), 1.0)

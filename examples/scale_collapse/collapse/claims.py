@@ -59,6 +59,7 @@ def claims(rows: Sequence[Row], finest: float) -> List[Claim]:
         found += [_at_least(f"{name}: speed-up of the confined test", row.speed_up, speed_up),
                   _plain(f"{name}: speed-up with the making of the specimen",
                          _number(row.whole_speed_up))]
+    found += _of_wide_specimens(rows, base, finest)
     row = _find(base, "unscaled", 2.0 * finest)
     if row is not None:
         value = row.loading_deviation
@@ -66,12 +67,14 @@ def claims(rows: Sequence[Row], finest: float) -> List[Claim]:
                            _percent(value), "yes" if value.value > UNSCALED else "NO"))
         found += [_plain(f"unscaled, 2x: strength after {level / 1e3:g} kPa", _percent(value))
                   for level, value in row.strength_deviation.items()]
-    for what, some in (("base material, scaled", scaled), ("all", rows)):
+    every_width = [r for r in rows if r.material == BASE.label and r.mode == "scaled"]
+    for what, some in (("base material, scaled", every_width), ("all", rows)):
         worst = max(some, key=lambda r: r.inertial_number, default=None)
         if worst:
             found.append(Claim(
                 f"largest inertial number on loading, {what} ({worst.material} {worst.mode}, "
-                f"{worst.diameter_mm:g} mm)", f"<= {INERTIAL_NUMBER:g}",
+                f"{worst.diameter_mm:g} mm{', ' if worst.special else ''}{worst.special})",
+                f"<= {INERTIAL_NUMBER:g}",
                 f"{worst.inertial_number:.2e}",
                 "yes" if worst.inertial_number <= INERTIAL_NUMBER else "NO"))
     crushing = [r.crush_inertial_number for r in rows if np.isfinite(r.crush_inertial_number)]
@@ -94,6 +97,21 @@ def claims(rows: Sequence[Row], finest: float) -> List[Claim]:
     if not_failed:
         found.append(_plain("specimens that were crushed by 12% and kept 75% of their peak",
                             str(not_failed)))
+    return found
+
+
+def _of_wide_specimens(rows: Sequence[Row], usual: Sequence[Row], finest: float) -> List[Claim]:
+    """The same limits of strength for coarse particles in specimens wider than the usual ones,
+    beside the finest in a usual one: with more diameters across."""
+    found: List[Claim] = []
+    for row in rows:
+        size = next((s for s in LIMITS if np.isclose(row.diameter_mm, s * finest)), None)
+        wide = usual and row.width_mm > 1.001 * usual[0].width_mm
+        if size is None or not wide or row.material != BASE.label or row.mode != "scaled":
+            continue
+        found += [_near(f"scaled, {size:g}x, {row.special}: strength after {level / 1e3:g} kPa",
+                        value, LIMITS[size][1])
+                  for level, value in row.strength_deviation.items()]
     return found
 
 

@@ -78,6 +78,9 @@ class FreeExponent:
     expected: float
     response: str
     reference_diameter: float
+    #: whether the finest particles are in specimens as many diameters wide and high as the coarse
+    #: ones, so that an effect of the specimen's size is in both; else all specimens are as wide
+    equal_width: bool
     diameters: List[float]
     #: log of the coefficient over that at the reference diameter
     logs: List[Value]
@@ -86,8 +89,18 @@ class FreeExponent:
     extrapolated: bool
 
 
-#: Of a group by seed.
-Response = Callable[[Group], Dict[int, float]]
+@dataclass(frozen=True)
+class _Free:
+    """A coefficient that is left free, of the material that it is varied in, and what it is to be
+    fitted to (of a group by seed)."""
+
+    what: str
+    expected: float
+    material: Material
+    vary: Callable[[Material, float], Material]
+    response: Callable[[Group], Dict[int, float]]
+    text: str
+    finest: float
 
 
 def free_exponents(groups: Dict[Key, Group], plan: Plan) -> List[FreeExponent]:
@@ -105,45 +118,58 @@ def free_exponents(groups: Dict[Key, Group], plan: Plan) -> List[FreeExponent]:
 
     after = "unconfined strength after the last level"
     finest = plan.diameters[0]
-    found = [_free_exponent(groups, plan, *given) for given in (
-        ("stiffness", 1.0, BASE, stiffer, strain, "strain near the last level", finest),
-        ("k_adh", 1.0, BASE, stickier, strength, after, finest),
-        ("f0", 2.0, PULL_OFF, pulled_harder, strength, after, plan.pull_off_reference))]
+    found = [_free_exponent(groups, plan, free, equal_width) for free in (
+        _Free("stiffness", 1.0, BASE, stiffer, strain, "strain near the last level", finest),
+        _Free("k_adh", 1.0, BASE, stickier, strength, after, finest),
+        _Free("f0", 2.0, PULL_OFF, pulled_harder, strength, after, plan.pull_off_reference))
+        for equal_width in (False, True)]
     return [one for one in found if one]
 
 
-def _free_exponent(groups: Dict[Key, Group], plan: Plan, what: str, expected: float,
-                   material: Material, vary: Callable[[Material, float], Material],
-                   response: Response, text: str, finest: float) -> Optional[FreeExponent]:
-    def of(some: Material, diameter: float) -> Dict[int, float]:
-        group = groups.get((some.label, "scaled", diameter, ""))
-        return response(group) if group else {}
+def _free_exponent(groups: Dict[Key, Group], plan: Plan, free: _Free,
+                   equal_width: bool) -> Optional[FreeExponent]:
+    def of(material: Material, diameter: float) -> Dict[int, float]:
+        group = groups.get((material.label, "scaled", diameter, ""))
+        return free.response(group) if group else {}
 
-    wanted = of(material, finest)
-    if not wanted:
-        return None
-    target = value_of(list(wanted.values()))
+    def target(diameter: float) -> Optional[Value]:
+        if not equal_width:
+            values = of(free.material, free.finest)
+        else:
+            similar = next((g for g in groups.values() if g.material == free.material
+                            and g.mode == "scaled" and g.diameter == free.finest and g.special
+                            and np.isclose(g.side / free.finest, plan.side / diameter)), None)
+            values = free.response(similar) if similar else {}
+        return value_of(list(values.values())) if values else None
+
     factors = sorted((1.0, *FACTORS))
-    diameters, best, slopes = [], [], []
-    for diameter in (d for d in plan.fitted if d > finest):
-        series = [of(material if f == 1.0 else vary(material, f), diameter) for f in factors]
+    diameters, best, common = [], [], []
+    for diameter in (d for d in plan.fitted if d > free.finest):
+        wanted = target(diameter)
+        series = [of(free.material if f == 1.0 else free.vary(free.material, f), diameter)
+                  for f in factors]
         # The runs of a seed start from one packing, so that they are not independent.
         seeds = set(series[0]).intersection(*series[1:])
-        if seeds:
+        if seeds and wanted:
             found, line = best_factors(factors, [[some[seed] for some in series]
-                                                 for seed in sorted(seeds)], target.value)
+                                                 for seed in sorted(seeds)], wanted.value)
             diameters.append(diameter)
             best.append(value_of(found))
-            slopes.append(abs(line))
+            common.append(wanted.error / wanted.value / abs(line))
     if not best:
         return None
     beyond = any(not min(factors) <= np.exp(v.value) <= max(factors) for v in best)
-    logs = [Value(v.value + expected * np.log(d / finest), v.error)
-            for v, d in zip(pooled(best), diameters)]
-    common = target.error / target.value / float(np.mean(slopes))
-    fit = exponent_from_reference([d / finest for d in diameters], [v.value for v in logs],
-                                  [v.error for v in logs], common)
-    return FreeExponent(what, expected, text, finest, diameters, logs, fit, beyond)
+    sizes = [d / free.finest for d in diameters]
+    if equal_width:  # every diameter has a reference of its own
+        best = [Value(v.value, float(np.hypot(v.error, other)))
+                for v, other in zip(best, common)]
+        common = [0.0]
+    logs = [Value(v.value + free.expected * np.log(size), v.error)
+            for v, size in zip(pooled(best), sizes)]
+    fit = exponent_from_reference(sizes, [v.value for v in logs], [v.error for v in logs],
+                                  float(np.mean(common)))
+    return FreeExponent(free.what, free.expected, free.text, free.finest, equal_width, diameters,
+                        logs, fit, beyond)
 
 
 def speed_exponent(groups: Dict[Key, Group], mode: str) -> Optional[Value]:

@@ -211,22 +211,27 @@ def sizes(rows: Sequence[Row], path: Path) -> Path:
 
 def exponents(found: Sequence[FreeExponent], path: Path) -> Path:
     """Best coefficients over diameter, with the fitted and the law's exponent."""
-    figure, axes = plt.subplots(1, len(found), figsize=(5.0 * len(found), 4.0), squeeze=False,
+    names = list(dict.fromkeys(one.what for one in found))
+    figure, axes = plt.subplots(1, len(names), figsize=(5.0 * len(names), 4.0), squeeze=False,
                                 constrained_layout=True)
-    for axis, one in zip(axes[0], found):
-        ratio = np.array(one.diameters) / one.reference_diameter
-        values = np.exp([v.value for v in one.logs])
-        errors = _errors(values * np.array([v.error for v in one.logs]))
-        axis.errorbar(ratio, values, errors, marker="o", linestyle="none", capsize=3,
-                      color="#0072B2")
-        reach = np.linspace(1.0, 1.05 * ratio.max(), 50)
-        axis.plot(reach, reach**one.exponent.value, color="#0072B2",
-                  label=f"fit: exponent {one.exponent.value:.2f}")
-        axis.plot(reach, reach**one.expected, "--", color="black", linewidth=0.8,
-                  label=f"scaling law: {one.expected:g}")
-        axis.set(xscale="log", yscale="log",
-                 xlabel=f"d over {1e3 * one.reference_diameter:g} mm",
-                 ylabel=f"best {one.what} over that of {1e3 * one.reference_diameter:g} mm")
+    for axis, name in zip(axes[0], names):
+        some = [one for one in found if one.what == name]
+        for one in some:
+            colour, marker, where = (("#D55E00", "s", "as many diameters wide") if one.equal_width
+                                     else ("#0072B2", "o", "as wide"))
+            ratio = np.array(one.diameters) / one.reference_diameter
+            values = np.exp([v.value for v in one.logs])
+            errors = _errors(values * np.array([v.error for v in one.logs]))
+            axis.errorbar(ratio, values, errors, marker=marker, linestyle="none", capsize=3,
+                          color=colour)
+            reach = np.linspace(1.0, 1.05 * ratio.max(), 50)
+            axis.plot(reach, reach**one.exponent.value, color=colour,
+                      label=f"{where}: exponent {one.exponent.value:.2f}")
+        axis.plot(reach, reach**some[0].expected, "--", color="black", linewidth=0.8,
+                  label=f"scaling law: {some[0].expected:g}")
+        reference = f"{1e3 * some[0].reference_diameter:g} mm"
+        axis.set(xscale="log", yscale="log", xlabel=f"d over {reference}",
+                 ylabel=f"best {name} over that of {reference}")
         _legend(axis)
     return _save(figure, path)
 

@@ -129,7 +129,9 @@ def _summary(study: Study) -> str:
     lines.append("")
     for fit in study.fits:
         lines.append(f"exponent of {fit.what} against d, left free to match {fit.response} of "
-                     f"{1e3 * fit.reference_diameter:g} mm: {with_error(fit.exponent, 3)} "
+                     f"{1e3 * fit.reference_diameter:g} mm"
+                     + (" in specimens as many diameters wide" if fit.equal_width else "")
+                     + f": {with_error(fit.exponent, 3)} "
                      f"(scaling law: {fit.expected:g})"
                      + (", beyond the factors that were run" if fit.extrapolated else ""))
     ends = (study.plan.diameters[0], study.plan.diameters[-1])
@@ -231,8 +233,9 @@ METHOD = (
     f"Exponents: at each coarse diameter a coefficient is multiplied by {FACTORS[0]:g} and "
     f"{FACTORS[1]:g} on top of the "
     "scaling law; seed by seed, the factor that gives the finest particles' mean response is read "
-    "off a line through the logarithms, and over diameters makes an exponent. k_adh is varied in "
-    "the base material, f0 in one without k_adh.")
+    "off a line through the logarithms, and over diameters makes an exponent: once in specimens all "
+    "as wide, once beside finest particles in specimens as many diameters wide and high. k_adh is "
+    "varied in the base material, f0 in one without k_adh.")
 
 
 def _versions(study: Study, lmp: Path) -> str:
