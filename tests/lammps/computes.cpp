@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 using namespace eepa_test;
 
@@ -58,6 +60,39 @@ TEST_P(ContactsByHand, AgreeWithTheCompute)
   }
 }
 INSTANTIATE_TEST_SUITE_P(Newton, ContactsByHand, testing::Values("on", "off"));
+
+// Steps that tally the energy evaluate one contact after the other, others several side by side,
+// and each writes down the branch and whether a contact slides: by turns, and all at once.
+TEST(Contacts, AreTheSameWhetherAStepTalliesOrNot)
+{
+  constexpr int samples = 6, every = 40;
+  const auto counts = [](const std::string &output) {
+    Packing packing;
+    packing.polydisperse = true;
+    Simulation simulation;
+    simulation.open_box(packing.half(), 2, "p p p");
+    simulation.create(packing.spheres());
+    simulation("pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.3 restitution 0.8\n"
+               "fix integrate all nve/sphere\ntimestep 2e-4\n"
+               "compute all all gran/eepa/contacts\nthermo_style custom step pe\n" +
+               output);
+    const auto counted = [](int k) { return "counted" + std::to_string(k); };
+    for (int k = 1; k <= 5; k++)
+      simulation("fix " + counted(k) + " all vector " + std::to_string(every) + " c_all[" +
+                 std::to_string(k) + "]");
+    simulation.run(samples * every + 1);
+    std::vector<double> found;
+    for (int sample = 2; sample <= samples + 1; sample++)    // the first is of step 0
+      for (int k = 1; k <= 5; k++)
+        found.push_back(simulation.fix(counted(k), sample));
+    return found;
+  };
+  const auto tallied = counts("thermo " + std::to_string(every)), plain = counts("thermo 0");
+  EXPECT_EQ(tallied, plain);
+  const double *last = plain.data() + static_cast<std::ptrdiff_t>(5) * (samples - 1);
+  EXPECT_GT(last[0], 32.0);    // so many that they stand side by side
+  for (int k = 1; k < 5; k++) EXPECT_GT(last[k], 2.0) << k;
+}
 
 TEST(Contacts, AreNoneWithoutParticles)
 {
