@@ -130,12 +130,24 @@ class FreeExponents(unittest.TestCase):
         self.assertAlmostEqual(usual.exponent.value, 1.0 + 0.2 / 0.8, delta=0.01)
         self.assertAlmostEqual(equal.exponent.value, 1.0, delta=0.01)
         self.assertEqual(equal.diameters, list(full.fitted[:2]))
-        # both packings' scatter is in each of its points, and none is common to them
-        expected = np.std([math.log(v) for v in self.SCATTER.values()], ddof=1) / 0.8 / 3**0.5
-        self.assertAlmostEqual(equal.logs[0].error, 2**0.5 * expected, delta=0.01)
-        alone = fits.exponent_from_reference([d / finest for d in equal.diameters], [0.0] * 2,
-                                             [equal.logs[0].error] * 2, 0.0)
-        self.assertAlmostEqual(equal.exponent.error, alone.error)
+        # packings of a seed are as much stronger than the next at either size
+        self.assertAlmostEqual(equal.logs[0].error, 0.0)
+        # and where they scatter apart, that is in the exponent
+        for group in found.values():
+            if group.special:
+                for seed, factor in ((1, 1.02), (3, 0.98)):
+                    group.unconfined[self.LAST][seed].strength *= factor
+        _, apart = fits.free_exponents(found, full)
+        own = np.std([math.log(1.02), 0.0, math.log(0.98)], ddof=1) / 0.8 / 3**0.5
+        self.assertAlmostEqual(apart.logs[0].error, own, delta=1e-9)
+        alone = fits.exponent_from_reference([d / finest for d in apart.diameters], [0.0] * 2,
+                                             [own] * 2, 0.0)
+        self.assertAlmostEqual(apart.exponent.error, alone.error)
+        # a packing that the other size does not have is left out
+        del found[one.key].unconfined[self.LAST][3]
+        _, fewer = fits.free_exponents(found, full)
+        self.assertAlmostEqual(fewer.logs[1].value - math.log(full.fitted[1] / finest),
+                               math.log(1.02) / 2.0 / 0.8, delta=0.005)
 
 
 def confined_result(size, seed, strain, z=6.0, seconds=10.0, inertial=4e-4):
@@ -268,6 +280,10 @@ class Rows(unittest.TestCase):
         one, = analysis.similar_specimens({g.key: g for g in [fine, *others]}, self.full)
         self.assertEqual((one.diameter_mm, one.fine_mm), (3.0, 1.0))
         self.assertAlmostEqual(one.strength_deviation[self.last].value, 5.0)
+        # packings of a seed are the same: what they scatter by is in neither error
+        self.assertAlmostEqual(one.strength_deviation[self.last].error, 0.0)
+        self.assertAlmostEqual(one.loading_deviation.error, 0.0)
+        self.assertEqual(one.seeds, 3)
         # as wide in diameters, but not as many particles
         for result in fine.confined.values():
             object.__setattr__(result.cost, "particles", 999)

@@ -8,8 +8,8 @@ from typing import Callable, Dict, List, Optional
 import numpy as np
 
 from . import curves as cv
-from .groups import (Group, Key, at_stress, comparison_stress, crush_deviation, references,
-                     speed_up)
+from .groups import (Group, Key, at_stress, comparison_stress, crush_deviation,
+                     curve_at_stress, references, speed_up)
 from .plan import BASE, Plan
 from .specimens import Confined
 from .statistics import (Value, paired_percent, ratio_percent, scatter_percent,
@@ -167,14 +167,14 @@ def paired_strength(group: Group, reference: Group, level: float) -> Value:
 @dataclass(frozen=True)
 class Similar:
     """Coarse particles beside as many finer ones in a specimen as many diameters wide and high:
-    what is left between them is the law's and inertia's, not the specimen's."""
+    what is left between them is the law's and inertia's, not the specimen's. From one seed their
+    packings are the same but for their size, so that they are compared seed by seed."""
 
     diameter_mm: float
     width_mm: float
     fine_mm: float
     fine_width_mm: float
     seeds: int
-    fine_seeds: int
     loading_deviation: Value
     coordination_deviation: Value
     strength_deviation: Dict[float, Value]
@@ -186,15 +186,16 @@ def similar_specimens(groups: Dict[Key, Group], plan: Plan) -> List[Similar]:
     return [_similar(coarse, fine, comparison_stress(plan))
             for fine in base for coarse in base if coarse.diameter > fine.diameter
             and np.isclose(coarse.side / coarse.diameter, fine.side / fine.diameter)
-            and coarse.particles == fine.particles]
+            and coarse.particles == fine.particles and set(coarse.confined) & set(fine.confined)]
 
 
 def _similar(coarse: Group, fine: Group, stress: float) -> Similar:
+    both = (coarse, fine)
+    coordination = [{seed: curve_at_stress(result.curve, "coordination", stress)
+                     for seed, result in some.confined.items()} for some in both]
     return Similar(
         1e3 * coarse.diameter, 1e3 * coarse.side, 1e3 * fine.diameter, 1e3 * fine.side,
-        len(coarse.confined), len(fine.confined),
-        _value(cv.loading_deviation(coarse.curves, fine.curves, "bulk")),
-        ratio_percent(at_stress(coarse, "coordination", stress),
-                      at_stress(fine, "coordination", stress)),
-        {level: ratio_percent(coarse.strength(level), fine.strength(level))
-         for level in sorted(coarse.unconfined) if level in fine.unconfined})
+        len(set(coarse.confined) & set(fine.confined)), _value(paired_loading(coarse, fine)),
+        paired_percent(*coordination),
+        {level: paired_strength(coarse, fine, level) for level in sorted(coarse.unconfined)
+         if set(coarse.unconfined[level]) & set(fine.unconfined.get(level, {}))})

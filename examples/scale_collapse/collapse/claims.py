@@ -107,7 +107,8 @@ def _of_wide_specimens(rows: Sequence[Row], usual: Sequence[Row], finest: float)
     for row in rows:
         size = next((s for s in LIMITS if np.isclose(row.diameter_mm, s * finest)), None)
         wide = usual and row.width_mm > 1.001 * usual[0].width_mm
-        if size is None or not wide or row.material != BASE.label or row.mode != "scaled":
+        if (size is None or not wide or row.material != BASE.label or row.mode != "scaled"
+                or not np.isclose(row.reference_mm, finest)):
             continue
         found += [_near(f"scaled, {size:g}x, {row.special}: strength after {level / 1e3:g} kPa",
                         value, LIMITS[size][1])

@@ -10,7 +10,7 @@ import numpy as np
 
 from .groups import Group, Key, comparison_stress, curve_at_stress
 from .plan import BASE, FACTORS, PULL_OFF, VARIED, Plan, pulled_harder, stickier, stiffer
-from .specimens import Material
+from .specimens import Confined, Material
 from .statistics import (Proportion, Value, best_factors, exponent, exponent_from_reference, pooled,
                          proportion, slope, value_of)
 
@@ -105,8 +105,8 @@ class _Free:
 
 def free_exponents(groups: Dict[Key, Group], plan: Plan) -> List[FreeExponent]:
     """Stiffness from the strain near the last level, adhesive stiffness and pull-off force each
-    from the strength after it, of a material whose strength it carries. A fit that lacks runs is
-    left out."""
+    from the strength after it, of a material whose strength it carries. A diameter that lacks runs
+    is left out, and a fit without any."""
     last = plan.levels[-1]
 
     def strain(group: Group) -> Dict[int, float]:
@@ -132,42 +132,41 @@ def _free_exponent(groups: Dict[Key, Group], plan: Plan, free: _Free,
         group = groups.get((material.label, "scaled", diameter, ""))
         return free.response(group) if group else {}
 
-    def target(diameter: float) -> Optional[Value]:
-        if not equal_width:
-            values = of(free.material, free.finest)
-        else:
-            similar = next((g for g in groups.values() if g.material == free.material
-                            and g.mode == "scaled" and g.diameter == free.finest and g.special
-                            and np.isclose(g.side / free.finest, plan.side / diameter)), None)
-            values = free.response(similar) if similar else {}
-        return value_of(list(values.values())) if values else None
+    def twins(diameter: float) -> Dict[int, float]:
+        """Of the finest particles in specimens as many diameters wide and high as those of a
+        diameter: from the same seed packings that are the same but for their size."""
+        similar = next((g for g in groups.values() if g.material == free.material
+                        and g.mode == "scaled" and g.diameter == free.finest and g.special
+                        and g.strain_rate == Confined.strain_rate
+                        and np.isclose(g.side / free.finest, plan.side / diameter)), None)
+        return free.response(similar) if similar else {}
 
     factors = sorted((1.0, *FACTORS))
-    diameters, best, common = [], [], []
+    diameters, best, common = [], [], [0.0]
     for diameter in (d for d in plan.fitted if d > free.finest):
-        wanted = target(diameter)
+        wanted = twins(diameter) if equal_width else of(free.material, free.finest)
         series = [of(free.material if f == 1.0 else free.vary(free.material, f), diameter)
                   for f in factors]
         # The runs of a seed start from one packing, so that they are not independent.
-        seeds = set(series[0]).intersection(*series[1:])
-        if seeds and wanted:
-            found, line = best_factors(factors, [[some[seed] for some in series]
-                                                 for seed in sorted(seeds)], wanted.value)
-            diameters.append(diameter)
-            best.append(value_of(found))
-            common.append(wanted.error / wanted.value / abs(line))
+        seeds = set(series[0]).intersection(*series[1:], *([wanted] if equal_width else []))
+        if not seeds or not wanted:
+            continue
+        mean = value_of(list(wanted.values()))
+        found, line = best_factors(
+            factors, [[some[seed] for some in series] for seed in sorted(seeds)],
+            [wanted[seed] for seed in sorted(seeds)] if equal_width else mean.value)
+        diameters.append(diameter)
+        best.append(value_of(found))
+        if not equal_width:  # one reference for all diameters
+            common.append(mean.error / mean.value / abs(line))
     if not best:
         return None
     beyond = any(not min(factors) <= np.exp(v.value) <= max(factors) for v in best)
     sizes = [d / free.finest for d in diameters]
-    if equal_width:  # every diameter has a reference of its own
-        best = [Value(v.value, float(np.hypot(v.error, other)))
-                for v, other in zip(best, common)]
-        common = [0.0]
     logs = [Value(v.value + free.expected * np.log(size), v.error)
             for v, size in zip(pooled(best), sizes)]
     fit = exponent_from_reference(sizes, [v.value for v in logs], [v.error for v in logs],
-                                  float(np.mean(common)))
+                                  float(np.mean(common[1:] or common)))
     return FreeExponent(free.what, free.expected, free.text, free.finest, equal_width, diameters,
                         logs, fit, beyond)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import List, Mapping, Optional, Sequence, Tuple
+from typing import List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -89,12 +89,13 @@ def exponent_from_reference(sizes: Sequence[float], logs: Sequence[float],
 
 
 def best_factors(factors: Sequence[float], responses: Sequence[Sequence[float]],
-                 target: float) -> Tuple[List[float], float]:
+                 target: Union[float, Sequence[float]]) -> Tuple[List[float], float]:
     """Of each packing log of the factor at which its response is the target, on a straight line of
     log(response) over log(factor), and the slope of these lines, the mean over the packings: what a
     single one scatters by would be in both.
 
     :param responses: of each packing, in the order of the factors
+    :param target: one for all packings, or of each packing
     """
     x, y = np.log(factors), np.log(np.asarray(responses, dtype=float))
     line = float(np.mean([slope(x, row).value for row in y]))

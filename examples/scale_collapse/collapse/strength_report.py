@@ -118,12 +118,12 @@ def _summary(study: Study) -> str:
                           for c in claims(study.rows, study.finest_mm)])
     if study.similar:
         lines += ["", "As many particles in specimens as many diameters wide and high, coarse "
-                      "beside fine:"]
+                      "beside fine, whose packings are the same but for their size, seed by seed:"]
     for one in study.similar:
         strengths = ", ".join(f"{with_error(value, 2)}% after {level / 1e3:g} kPa"
                               for level, value in one.strength_deviation.items())
         lines.append(f"{one.diameter_mm:g} mm in {one.width_mm:g} mm, {one.fine_mm:g} mm in "
-                     f"{one.fine_width_mm:g} mm, {one.seeds} and {one.fine_seeds} packings: curve "
+                     f"{one.fine_width_mm:g} mm, {one.seeds} packings: curve "
                      f"{with_error(one.loading_deviation, 2)}% of peak, Z "
                      f"{with_error(one.coordination_deviation, 2)}%, strength {strengths}")
     lines.append("")
@@ -131,6 +131,7 @@ def _summary(study: Study) -> str:
         lines.append(f"exponent of {fit.what} against d, left free to match {fit.response} of "
                      f"{1e3 * fit.reference_diameter:g} mm"
                      + (" in specimens as many diameters wide" if fit.equal_width else "")
+                     + " by " + ", ".join(f"{1e3 * d:g}" for d in fit.diameters) + " mm"
                      + f": {with_error(fit.exponent, 3)} "
                      f"(scaling law: {fit.expected:g})"
                      + (", beyond the factors that were run" if fit.extrapolated else ""))
