@@ -232,6 +232,12 @@ def exponents(found: Sequence[FreeExponent], path: Path) -> Path:
         reference = f"{1e3 * some[0].reference_diameter:g} mm"
         axis.set(xscale="log", yscale="log", xlabel=f"d over {reference}",
                  ylabel=f"best {name} over that of {reference}")
+        sizes = sorted({d / one.reference_diameter for one in some for d in one.diameters})
+        for scale, ticks in ((axis.xaxis, sizes), (axis.yaxis, [s**some[0].expected
+                                                               for s in sizes])):
+            scale.set_ticks([1.0, *ticks])
+            scale.set_major_formatter("{x:.3g}")
+            scale.set_minor_formatter("")
         _legend(axis)
     return _save(figure, path)
 
