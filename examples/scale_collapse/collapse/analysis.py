@@ -9,7 +9,7 @@ import numpy as np
 
 from . import curves as cv
 from .groups import (Group, Key, at_stress, comparison_stress, crush_deviation,
-                     curve_at_stress, references, speed_up)
+                     curve_at_stress, equally_wide, references, speed_up)
 from .plan import BASE, Plan
 from .specimens import Confined
 from .statistics import (Value, paired_percent, ratio_percent, scatter_percent,
@@ -185,8 +185,8 @@ def similar_specimens(groups: Dict[Key, Group], plan: Plan) -> List[Similar]:
             and g.strain_rate == Confined.strain_rate]
     return [_similar(coarse, fine, comparison_stress(plan))
             for fine in base for coarse in base if coarse.diameter > fine.diameter
-            and np.isclose(coarse.side / coarse.diameter, fine.side / fine.diameter)
-            and coarse.particles == fine.particles and set(coarse.confined) & set(fine.confined)]
+            and equally_wide(coarse, fine) and coarse.particles == fine.particles
+            and set(coarse.confined) & set(fine.confined)]
 
 
 def _similar(coarse: Group, fine: Group, stress: float) -> Similar:

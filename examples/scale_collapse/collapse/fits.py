@@ -8,7 +8,7 @@ from typing import Callable, Dict, List, Optional, Sequence
 
 import numpy as np
 
-from .groups import Group, Key, comparison_stress, curve_at_stress
+from .groups import Group, Key, comparison_stress, curve_at_stress, equally_wide
 from .plan import BASE, FACTORS, PULL_OFF, VARIED, Plan, pulled_harder, stickier, stiffer
 from .specimens import Confined, Material
 from .statistics import (Proportion, Value, best_factors, exponent, exponent_from_reference, pooled,
@@ -135,14 +135,15 @@ def _free_exponent(groups: Dict[Key, Group], plan: Plan, free: _Free,
     def twins(diameter: float) -> Dict[int, float]:
         """Of the finest particles in specimens as many diameters wide and high as those of a
         diameter: from the same seed packings that are the same but for their size."""
-        similar = next((g for g in groups.values() if g.material == free.material
-                        and g.mode == "scaled" and g.diameter == free.finest and g.special
-                        and g.strain_rate == Confined.strain_rate
-                        and np.isclose(g.side / free.finest, plan.side / diameter)), None)
+        coarse = groups.get((free.material.label, "scaled", diameter, ""))
+        similar = next((g for g in groups.values() if coarse and g.material == free.material
+                        and g.mode == "scaled" and g.diameter == free.finest
+                        and g.strain_rate == Confined.strain_rate and equally_wide(g, coarse)),
+                       None)
         return free.response(similar) if similar else {}
 
     factors = sorted((1.0, *FACTORS))
-    diameters, best, common = [], [], [0.0]
+    diameters, best, common = [], [], []
     for diameter in (d for d in plan.fitted if d > free.finest):
         wanted = twins(diameter) if equal_width else of(free.material, free.finest)
         series = [of(free.material if f == 1.0 else free.vary(free.material, f), diameter)
@@ -152,9 +153,9 @@ def _free_exponent(groups: Dict[Key, Group], plan: Plan, free: _Free,
         if not seeds or not wanted:
             continue
         mean = value_of(list(wanted.values()))
+        target = [wanted[seed] for seed in sorted(seeds)] if equal_width else mean.value
         found, line = best_factors(
-            factors, [[some[seed] for some in series] for seed in sorted(seeds)],
-            [wanted[seed] for seed in sorted(seeds)] if equal_width else mean.value)
+            factors, [[some[seed] for some in series] for seed in sorted(seeds)], target)
         diameters.append(diameter)
         best.append(value_of(found))
         if not equal_width:  # one reference for all diameters
@@ -166,7 +167,7 @@ def _free_exponent(groups: Dict[Key, Group], plan: Plan, free: _Free,
     logs = [Value(v.value + free.expected * np.log(size), v.error)
             for v, size in zip(pooled(best), sizes)]
     fit = exponent_from_reference(sizes, [v.value for v in logs], [v.error for v in logs],
-                                  float(np.mean(common[1:] or common)))
+                                  float(np.mean(common)) if common else 0.0)
     return FreeExponent(free.what, free.expected, free.text, free.finest, equal_width, diameters,
                         logs, fit, beyond)
 

@@ -102,6 +102,11 @@ def references(groups: Dict[Key, Group], plan: Plan) -> Dict[Key, Optional[Group
     return {key: of(group) for key, group in groups.items()}
 
 
+def equally_wide(one: Group, other: Group) -> bool:
+    """Whether specimens are as many diameters wide."""
+    return bool(np.isclose(one.side / one.diameter, other.side / other.diameter))
+
+
 def comparison_stress(plan: Plan) -> float:
     """Where groups are compared at equal stress, Pa: below the last level, for the platen lags and
     samples come at intervals."""

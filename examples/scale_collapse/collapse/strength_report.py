@@ -21,7 +21,7 @@ from .groups import Group, Key, group_results
 from .html import Page
 from .plan import BASE, FACTORS, VARIED, Plan, Run
 from .runs import read_marker
-from .specimens import Confined, Unconfined
+from .specimens import TRANSITS, Confined, Unconfined
 from .strength_tables import HEADER, cells, with_error, write_curves, write_table
 
 @dataclass(frozen=True)
@@ -142,8 +142,9 @@ def _summary(study: Study) -> str:
             lines.append(f"flow function, {group.material.label} {group.mode} "
                          f"{1e3 * group.diameter:g} mm: strength rises by "
                          f"{with_error(flow.slope, 4)} of the consolidation stress")
+    every_point = strength_points(study.groups)
     for plastic, name in ((True, "with k_adh"), (False, "f0 alone")):
-        points = [p for p in strength_points(study.groups) if p.plastic == plastic]
+        points = [p for p in every_point if p.plastic == plastic]
         if points:
             line = proportion_of(points)
             free = f", exponent {with_error(line.exponent, 2)} when free" if line.exponent else ""
@@ -219,9 +220,9 @@ METHOD = (
     "pressure drives, at a strain rate of about 0.5/s (0.4 of that up to the first level); every "
     "level is held for 10 ms. Strain is that of the grains two diameters and more away from the "
     "platens and counts from 5 kPa. The specimen is unloaded from the last level.",
-    "Unconfined: each level is unloaded, left for 10 ms, its periodic sides are opened (contacts "
-    "across them are gone), left for 10 ms and crushed at 0.3/s to 75% of the peak stress or "
-    "beyond. The upper platen is held where it came to rest, so that crushing starts within 1 to "
+    f"Unconfined: each level is unloaded in the time of {TRANSITS:g} passages of a stress wave or "
+    "more, left for 10 ms, its periodic sides are opened (contacts across them are gone), left for "
+    "10 ms and crushed at 0.3/s to 75% of the peak stress or beyond. The upper platen is held where it came to rest, so that crushing starts within 1 to "
     "2 kPa of zero. Stress is force over the cross-section before crushing, and so is the porosity "
     "in the files of crushing. Strength is the top of the cubic through the samples around the "
     "peak, above 80% of it.",
