@@ -6,6 +6,8 @@
 #                          else $XDG_CACHE_HOME/eepa, else $HOME/.cache/eepa
 #   EEPA_LAMMPS_ARGS       more -D arguments for LAMMPS's own configuration (a list)
 #
+# `dump vtk` is in the library where LAMMPS would find VTK, `dump image` of PNG files where CMake finds PNG.
+#
 # Defines
 #   LAMMPS::headers        include folders (as system ones: -Werror is for this project's code) and
 #                          the very definitions that LAMMPS was compiled with; MPI and OpenMP
@@ -108,6 +110,31 @@ function(_eepa_fetch_source tree)
     "${_eepa_own_source_hint}")
 endfunction()
 
+# A make or ninja around this configure would hand its job server and its settings down.
+set(_eepa_clean_env ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS --unset=MAKELEVEL --unset=NINJA_STATUS)
+
+# LAMMPS's packages that granular models use: clumps and bonds (RIGID, MOLECULE, BPM), fluid drag and servo
+# control (EXTRA-FIX), rattlers and stress profiles (EXTRA-COMPUTE), contact times (MISC: pair tracker), output
+# (EXTRA-DUMP).
+set(_eepa_packages GRANULAR RIGID MOLECULE BPM MISC EXTRA-FIX EXTRA-COMPUTE EXTRA-DUMP OPENMP PLUGIN)
+
+# The version of the VTK that LAMMPS would find, or nothing. In a project of its own, because finding VTK
+# needs C and defines some hundred targets.
+function(_eepa_find_vtk variable)
+  set(folder "${CMAKE_BINARY_DIR}/CMakeFiles/find_vtk")
+  file(REMOVE_RECURSE "${folder}")
+  execute_process(
+    COMMAND ${_eepa_clean_env} ${CMAKE_COMMAND} -S "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/find_vtk"
+      -B "${folder}" -G "${CMAKE_GENERATOR}" -D "CMAKE_MAKE_PROGRAM=${CMAKE_MAKE_PROGRAM}"
+      -D "CMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" ${EEPA_LAMMPS_ARGS}
+    OUTPUT_VARIABLE words ERROR_VARIABLE words)
+  set(version "")
+  if(words MATCHES "found VTK ([0-9.]+)")
+    set(version ${CMAKE_MATCH_1})
+  endif()
+  set(${variable} "${version}" PARENT_SCOPE)
+endfunction()
+
 # Configures and builds LAMMPS's library in `build`.
 function(_eepa_build_lammps source build)
   file(MAKE_DIRECTORY "${build}")
@@ -120,19 +147,22 @@ function(_eepa_build_lammps source build)
     # `dump image` moved into a package of its own after 4 Feb 2025.
     set(graphics -D PKG_GRAPHICS=on)
   endif()
+  set(packages ${_eepa_packages})
+  if(_eepa_vtk)
+    list(APPEND packages VTK)
+  endif()
+  list(TRANSFORM packages REPLACE "(.+)" "-DPKG_\\1=on")
   set(launcher "")
   if(CMAKE_CXX_COMPILER_LAUNCHER)
     set(launcher -D "CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}")
   endif()
-  # A make or ninja around this configure would hand its job server and its settings down.
-  set(clean_env ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS --unset=MAKELEVEL --unset=NINJA_STATUS)
   execute_process(
-    COMMAND ${clean_env} ${CMAKE_COMMAND} -S "${source}/cmake" -B "${build}" -G "${CMAKE_GENERATOR}"
+    COMMAND ${_eepa_clean_env} ${CMAKE_COMMAND} -S "${source}/cmake" -B "${build}" -G "${CMAKE_GENERATOR}"
       -D "CMAKE_MAKE_PROGRAM=${CMAKE_MAKE_PROGRAM}"
       -D "CMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" ${launcher}
       -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_STANDARD=17 -D CMAKE_EXPORT_COMPILE_COMMANDS=on
       -D BUILD_SHARED_LIBS=on -D BUILD_MPI=on -D BUILD_OMP=on
-      -D PKG_GRANULAR=on -D PKG_PLUGIN=on -D PKG_OPENMP=on -D PKG_RIGID=on ${graphics}
+      ${packages} ${graphics}
       -D WITH_PNG=${png} -D WITH_JPEG=off -D WITH_GZIP=off -D WITH_FFMPEG=off -D WITH_CURL=off
       ${EEPA_LAMMPS_ARGS}
     OUTPUT_FILE "${build}/eepa_configure.log" ERROR_FILE "${build}/eepa_configure.log"
@@ -151,7 +181,7 @@ function(_eepa_build_lammps source build)
     endif()
   endif()
   execute_process(
-    COMMAND ${clean_env} ${CMAKE_COMMAND} --build "${build}" --parallel ${jobs}
+    COMMAND ${_eepa_clean_env} ${CMAKE_COMMAND} --build "${build}" --parallel ${jobs}
     COMMAND sh "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/build_progress.sh" "${build}/eepa_build.log"
     RESULTS_VARIABLE statuses)
   foreach(status IN LISTS statuses)
@@ -218,8 +248,8 @@ function(_eepa_obtain_lammps)
 
   # Whatever could make a library differ, so that two configurations never share one by mistake.
   string(SHA256 key "${source}|${version}|${CMAKE_CXX_COMPILER}|${CMAKE_CXX_COMPILER_ID}|\
-${CMAKE_CXX_COMPILER_VERSION}|${CMAKE_GENERATOR}|${MPI_CXX_LIBRARIES}|${PNG_LIBRARIES}|\
-${EEPA_LAMMPS_ARGS}|$ENV{CXXFLAGS}|$ENV{LDFLAGS}|recipe 1")
+${CMAKE_CXX_COMPILER_VERSION}|${CMAKE_GENERATOR}|${MPI_CXX_LIBRARIES}|${PNG_LIBRARIES}|${_eepa_vtk}|\
+${EEPA_LAMMPS_ARGS}|$ENV{CXXFLAGS}|$ENV{LDFLAGS}|recipe 2")
   string(SUBSTRING ${key} 0 12 key)
   set(build "${cache}/build/lammps-${name}-${key}")
   set(library "${build}/liblammps${CMAKE_SHARED_LIBRARY_SUFFIX}")
@@ -230,7 +260,7 @@ ${EEPA_LAMMPS_ARGS}|$ENV{CXXFLAGS}|$ENV{LDFLAGS}|recipe 1")
     _eepa_lock("${build}")
     if(NOT EXISTS "${stamp}")
       message(STATUS "LAMMPS ${version}: building its shared library, once "
-        "(3 to 4 minutes on two cores), in ${build}")
+        "(about 5 minutes on two cores), in ${build}")
     endif()
     if(LAMMPS_SOURCE_DIR OR NOT EXISTS "${stamp}")
       _eepa_build_lammps("${source}" "${build}")
@@ -283,4 +313,5 @@ set(MPI_CXX_SKIP_MPICXX TRUE)
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(PNG QUIET)
+_eepa_find_vtk(_eepa_vtk)
 _eepa_obtain_lammps()
