@@ -6,7 +6,7 @@
 #                          else $XDG_CACHE_HOME/eepa, else $HOME/.cache/eepa
 #   EEPA_LAMMPS_ARGS       more -D arguments for LAMMPS's own configuration (a list)
 #
-# `dump vtk` is in the library where LAMMPS would find VTK, `dump image` of PNG files where CMake finds PNG.
+# `dump vtk` is in the library where CMake finds VTK 9, `dump image` of PNG files where it finds PNG.
 #
 # Defines
 #   LAMMPS::headers        include folders (as system ones: -Werror is for this project's code) and
@@ -118,8 +118,8 @@ set(_eepa_clean_env ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS --unset=MAKELEVEL 
 # (EXTRA-DUMP).
 set(_eepa_packages GRANULAR RIGID MOLECULE BPM MISC EXTRA-FIX EXTRA-COMPUTE EXTRA-DUMP OPENMP PLUGIN)
 
-# The version of the VTK that LAMMPS would find, or nothing. In a project of its own, because finding VTK
-# needs C and defines some hundred targets.
+# The configuration file of VTK, or nothing. In a project of its own, because finding VTK needs C and defines some
+# hundred targets.
 function(_eepa_find_vtk variable)
   set(folder "${CMAKE_BINARY_DIR}/CMakeFiles/find_vtk")
   file(REMOVE_RECURSE "${folder}")
@@ -128,11 +128,12 @@ function(_eepa_find_vtk variable)
       -B "${folder}" -G "${CMAKE_GENERATOR}" -D "CMAKE_MAKE_PROGRAM=${CMAKE_MAKE_PROGRAM}"
       -D "CMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" ${EEPA_LAMMPS_ARGS}
     OUTPUT_VARIABLE words ERROR_VARIABLE words)
-  set(version "")
-  if(words MATCHES "found VTK ([0-9.]+)")
-    set(version ${CMAKE_MATCH_1})
+  set(file "")
+  if(words MATCHES "found VTK ([0-9.]+) by ([^\n]+)")
+    set(file "${CMAKE_MATCH_2}")
+    message(STATUS "Found VTK: ${file} (found version \"${CMAKE_MATCH_1}\")")
   endif()
-  set(${variable} "${version}" PARENT_SCOPE)
+  set(${variable} "${file}" PARENT_SCOPE)
 endfunction()
 
 # Configures and builds LAMMPS's library in `build`.
@@ -148,10 +149,11 @@ function(_eepa_build_lammps source build)
     set(graphics -D PKG_GRAPHICS=on)
   endif()
   set(packages ${_eepa_packages})
-  if(_eepa_vtk)
-    list(APPEND packages VTK)
-  endif()
   list(TRANSFORM packages REPLACE "(.+)" "-DPKG_\\1=on")
+  if(_eepa_vtk)
+    list(APPEND packages -D PKG_VTK=on -D "VTK_DIR=${CMAKE_CURRENT_FUNCTION_LIST_DIR}/find_vtk"
+      -D "EEPA_VTK_CONFIG=${_eepa_vtk}")
+  endif()
   set(launcher "")
   if(CMAKE_CXX_COMPILER_LAUNCHER)
     set(launcher -D "CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}")

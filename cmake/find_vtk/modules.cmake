@@ -1,0 +1,2 @@
+# Those that LAMMPS's VTK package links.
+set(vtk_modules CommonCore IOCore CommonDataModel IOXML IOLegacy IOParallelXML)
