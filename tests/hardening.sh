@@ -14,7 +14,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 work=${EEPA_HARDENING_DIR:-$root/build-hardening}
 lmp=${EEPA_LMP:-$root/build/lmp}
 input=$root/tests/fuzz/in.valgrind
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
+export OMP_NUM_THREADS=1
 mkdir -p "$work"
 
 die() {

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Mapping, Sequence
 
+from collapse import mpi
 from collapse.logs import tail
 from collapse.runs import RunFailed
 
@@ -78,11 +79,9 @@ def command(program: Program, infile: Path, folder: Path, variables: Mapping[str
 
 
 def environment(program: Program, parallel: Parallel = Parallel()) -> Dict[str, str]:
-    """Open MPI refuses to start as root, as in a container, unless told so."""
-    settings = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                "OMP_NUM_THREADS": str(max(1, parallel.threads))}
-    if parallel.cores > len(usable_cores()):
-        settings["OMPI_MCA_rmaps_base_oversubscribe"] = "1"
+    settings = {**mpi.settings(), "OMP_NUM_THREADS": str(max(1, parallel.threads))}
+    if parallel.cores <= len(usable_cores()):
+        del settings["OMPI_MCA_mpi_yield_when_idle"]    # it would cost time, and is not needed
     if program.bind and parallel.threads:
         settings.update(OMP_PROC_BIND="true", OMP_PLACES="cores")
     return {**os.environ, **settings}

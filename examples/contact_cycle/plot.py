@@ -78,8 +78,7 @@ def run(lmp: Path, law: str, out: Path) -> None:
     """Writes cycle_LAW.csv and log.LAW to the folder out."""
     command = [str(lmp), "-in", str(HERE / "in.contact_cycle"), "-var", "law", law, "-var", "out",
                str(out), "-log", str(out / f"log.{law}"), "-screen", "none"]
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
-                   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
+    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
     done = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode != 0:

@@ -32,20 +32,23 @@ TEST(ParallelClumps, PouredFromATemplateSettleOnAFloor)
   if (rank == 0) std::ofstream(molecule.name()) << row_of_three;
   MPI_Barrier(simulation.comm());
 
-  simulation(
-      "units si\natom_style hybrid sphere bond\natom_modify map array\ncomm_modify vel yes\n"
-      "boundary p p f\nregion box block 0 0.012 0 0.012 0 0.04\ncreate_box 1 box\n"
-      "neigh_modify exclude molecule/intra all\nneighbor 4e-4 bin\n"
-      "molecule clump " + molecule.name() + "\n"
-      "pair_style gran/eepa linear\n"
-      "pair_coeff * * 500 1e3 100 -1e-5 0.5 restitution 0.4 rolling sds 100 0.01 0.1\n"
-      "fix floor all wall/gran/eepa linear coeff 500 1e3 100 -1e-5 0.5 restitution 0.4 "
-      "rolling sds 100 0.01 0.1 wall zplane 0 NULL\n"
-      "fix gravity all gravity 9.81 vector 0 0 -1\n"
-      "fix move all rigid/small molecule mol clump\n"
-      "region pour block 0 0.012 0 0.012 0.02 0.036\n"
-      "fix pour all pour " + std::to_string(clumps) + " 0 4767 region pour mol clump rigid move\n"
-      "thermo_modify lost error\ntimestep 1e-5");
+  simulation("units si\natom_style hybrid sphere bond\natom_modify map array\ncomm_modify vel yes\n"
+             "boundary p p f\nregion box block 0 0.012 0 0.012 0 0.04\ncreate_box 1 box\n"
+             "neigh_modify exclude molecule/intra all\nneighbor 4e-4 bin\n"
+             "molecule clump " +
+             molecule.name() +
+             "\n"
+             "pair_style gran/eepa linear\n"
+             "pair_coeff * * 500 1e3 100 -1e-5 0.5 restitution 0.4 rolling sds 100 0.01 0.1\n"
+             "fix floor all wall/gran/eepa linear coeff 500 1e3 100 -1e-5 0.5 restitution 0.4 "
+             "rolling sds 100 0.01 0.1 wall zplane 0 NULL\n"
+             "fix gravity all gravity 9.81 vector 0 0 -1\n"
+             "fix move all rigid/small molecule mol clump\n"
+             "region pour block 0 0.012 0 0.012 0.02 0.036\n"
+             "fix pour all pour " +
+             std::to_string(clumps) +
+             " 0 4767 region pour mol clump rigid move\n"
+             "thermo_modify lost error\ntimestep 1e-5");
   simulation.watch_contacts();
   simulation.run(20000);
 

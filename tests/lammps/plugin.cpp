@@ -49,8 +49,7 @@ class StockLammps : public testing::Test {
   {
     const ScratchFile script(".in"), log(".log");
     std::ofstream(script.name()) << input;
-    const std::string command = "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 "
-                                "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " +
+    const std::string command = "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 " +
         environment + " '" + program + "' -nocite -log none -in " + script.name() + " > " +
         log.name() + " 2>&1 < /dev/null";
     const int status = std::system(command.c_str());

@@ -439,7 +439,11 @@ class Resuming(unittest.TestCase):
         self.assertEqual(command[:4], ["mpirun", "-np", "2", "/x/lmp"])
         self.assertEqual(command[command.index("scaled") + 1], "yes")
         self.assertEqual(command[command.index("d") + 1], "0.002")
-        self.assertEqual(launcher.environment()["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"], "1")
+        # Open MPI 4 and 5 read different ones
+        environment = launcher.environment()
+        self.assertEqual(environment["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"], "1")
+        self.assertEqual(environment["OMPI_MCA_rmaps_base_oversubscribe"], "1")
+        self.assertEqual(environment["PRTE_MCA_rmaps_default_mapping_policy"], ":oversubscribe")
 
     def test_lmp_that_is_not_there(self):
         with self.assertRaisesRegex(FileNotFoundError, "--lmp /no/lmp"):

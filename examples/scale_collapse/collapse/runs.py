@@ -14,6 +14,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Dict, Iterator, List, Optional, Sequence, Tuple
 
+from . import mpi
 from .cases import Case, folder_of
 from .logs import LogSummary, summarise_file, tail
 from .progress import Progress
@@ -68,15 +69,7 @@ class Launcher:
         return self.infile if case.needs is None else self.infile.with_name(case.infile)
 
     def environment(self) -> Dict[str, str]:
-        """Open MPI refuses to start as root or more ranks than cores unless told so, and would
-        bind the ranks of every run to the same first cores."""
-        return {**os.environ,
-                "OMPI_ALLOW_RUN_AS_ROOT": "1",
-                "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                "OMPI_MCA_rmaps_base_oversubscribe": "1",
-                "OMPI_MCA_hwloc_base_binding_policy": "none",
-                "OMPI_MCA_mpi_yield_when_idle": "1",
-                "OMP_NUM_THREADS": "1"}
+        return {**os.environ, **mpi.settings(), "OMP_NUM_THREADS": "1"}
 
     def fingerprint(self, case: Case) -> str:
         return case.fingerprint([path.read_bytes() for path in self.inputs(case)], self.ranks)
