@@ -57,5 +57,7 @@ void ComputeGranEepaEnergy::compute_vector()
   mine[DISSIPATED_SLIDING] = sum.dissipated.sliding;
   mine[DISSIPATED_ROLLING] = sum.dissipated.rolling;
   mine[WALL_WORK] = sum.wall_work;
+  mine[ELASTIC_TWISTING] = sum.elastic.twisting;
+  mine[DISSIPATED_TWISTING] = sum.dissipated.twisting;
   MPI_Allreduce(mine, vector, N_QUANTITIES, MPI_DOUBLE, MPI_SUM, world);
 }

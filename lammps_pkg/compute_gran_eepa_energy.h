@@ -32,6 +32,8 @@ class ComputeGranEepaEnergy : public Compute {
     DISSIPATED_SLIDING,
     DISSIPATED_ROLLING,
     WALL_WORK,    ///< done by walls on particles since then
+    ELASTIC_TWISTING,
+    DISSIPATED_TWISTING,
     N_QUANTITIES
   };
 };

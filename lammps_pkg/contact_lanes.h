@@ -37,19 +37,20 @@ class ContactLanes {
                               const ParticleArrays &p, double *f, double *torque,
                               ContactSlice &slice)
   {
-    constexpr bool rolling_spring = ContactLaw::Rolling::has_spring;
-    gather<ContactLaw::has_rolling>(p, slice);
-    eepa::HistoryOf<eepa::Lanes> history = eepa::load_history<rolling_spring>(history_);
+    using Layout = typename ContactLaw::Layout;
+    gather<ContactLaw::has_couple>(p, time_step, slice);
+    eepa::HistoryOf<eepa::Lanes> history = eepa::load_history<Layout>(history_);
     const eepa::ResponseOf<eepa::Lanes> response =
         ContactLaw::evaluate(c, limit_damping, contact_, time_step, history);
-    eepa::store_history<rolling_spring>(history, history_);
+    eepa::store_history<Layout>(history, history_);
     store_status(response);
 
     const Vector moment = ContactLaw::tangential_moment(response, contact_);
     Vector torque_i = -arm_i_ * moment, torque_j = -arm_j_ * moment;
-    if constexpr (ContactLaw::has_rolling) {
-      torque_i += response.rolling_torque;
-      torque_j -= response.rolling_torque;
+    if constexpr (ContactLaw::has_couple) {
+      const Vector couple = ContactLaw::couple_on_i(response, contact_);
+      torque_i += couple;
+      torque_j -= couple;
     }
     scatter(ContactLaw::force_on_i(response, contact_), torque_i, torque_j, f, torque, slice);
   }
@@ -78,8 +79,8 @@ class ContactLanes {
   }
 
   /// As gather_contact().
-  template <bool WithRolling>
-  EEPA_FUNCTION void gather(const ParticleArrays &p, ContactSlice &slice)
+  template <bool WithCouple>
+  EEPA_FUNCTION void gather(const ParticleArrays &p, double time_step, ContactSlice &slice)
   {
     using eepa::Lanes;
     const Lanes radius_i = numbers(p.radius, i_), radius_j = numbers(p.radius, j_);
@@ -87,14 +88,18 @@ class ContactLanes {
     const Lanes distance = sqrt(eepa::squared_length(offset));
     contact_.size = radius_i + radius_j;
     contact_.overlap = contact_.size - distance;
-    contact_.normal = (1.0 / distance) * offset;
+    const Lanes inverse_distance = 1.0 / distance;
+    contact_.normal = inverse_distance * offset;
     contact_.effective_mass = eepa::effective_mass(numbers(p.mass, i_), numbers(p.mass, j_));
     contact_.velocity = rows(p.v, i_) - rows(p.v, j_);
     arm_i_ = eepa::lever_arm(radius_i, contact_.overlap);
     arm_j_ = eepa::lever_arm(radius_j, contact_.overlap);
     const Vector omega_i = rows(p.omega, i_), omega_j = rows(p.omega, j_);
     contact_.spin = arm_i_ * omega_i + arm_j_ * omega_j;
-    if constexpr (WithRolling) {
+    contact_.turn = eepa::turn_of_pair<Lanes>(contact_.normal, contact_.velocity, inverse_distance,
+                                              time_step);
+    contact_.twist = eepa::twist_of_pair<Lanes>(contact_.normal, omega_i + omega_j, time_step);
+    if constexpr (WithCouple) {
       contact_.effective_radius = eepa::effective_radius(radius_i, radius_j);
       contact_.angular_velocity = omega_i - omega_j;
     }

@@ -15,7 +15,7 @@ namespace eepa {
 
 namespace {
 
-  constexpr double restart_format = 1.0;
+  constexpr double restart_format = 2.0;
 
   [[noreturn]] void refuse(const std::string &message)
   {
@@ -105,6 +105,13 @@ namespace {
     } else {
       refuse("rolling model '" + model + "' is unknown: it must be none, constant or sds");
     }
+  }
+
+  TwistingModel parse_twisting(const std::string &word)
+  {
+    if (word == "none") return TwistingModel::none;
+    if (word == "marshall") return TwistingModel::marshall;
+    refuse("twisting model '" + word + "' is unknown: it must be none or marshall");
   }
 
   Quantity parse_quantity(Reader &reader, const std::string &name)
@@ -226,8 +233,11 @@ std::size_t parse_parameters(const Words &words, std::size_t first, const std::s
       }
     } else if (key == "rolling") {
       parse_rolling(reader, p);
+    } else if (key == "twisting") {
+      p.twisting = parse_twisting(reader.word("twisting model"));
     } else {
-      refuse("keyword '" + key + "' is unknown: it must be kt, restitution, viscous or rolling");
+      refuse("keyword '" + key +
+             "' is unknown: it must be kt, restitution, viscous, rolling or twisting");
     }
   }
   require_valid(p, settings, warnings);
@@ -296,6 +306,7 @@ std::string to_words(const Parameters &p)
   if (p.rolling == RollingModel::constant) words += " rolling constant " + exact(p.mu_r);
   if (p.rolling == RollingModel::sds)
     words += " rolling sds " + exact(p.kr) + " " + exact(p.rolling_viscous) + " " + exact(p.mu_r);
+  if (p.twisting == TwistingModel::marshall) words += " twisting marshall";
   return words;
 }
 
@@ -342,7 +353,8 @@ std::array<double, packed_parameters_size> pack(const Parameters &p)
           static_cast<double>(p.rolling),
           p.mu_r,
           p.kr,
-          p.rolling_viscous};
+          p.rolling_viscous,
+          static_cast<double>(p.twisting)};
 }
 
 Parameters unpack_parameters(const std::array<double, packed_parameters_size> &n)
@@ -363,6 +375,7 @@ Parameters unpack_parameters(const std::array<double, packed_parameters_size> &n
   p.mu_r = n[12];
   p.kr = n[13];
   p.rolling_viscous = n[14];
+  p.twisting = enumerator(n[15], TwistingModel::marshall, "twisting model");
   return p;
 }
 

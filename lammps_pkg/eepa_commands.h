@@ -34,7 +34,8 @@ std::size_t parse_style(const Words &words, std::size_t first, const std::string
                         StyleArguments &style);
 
 /// Reads `k1 k2 k_adh f0 mu [kt v] [restitution e | viscous Bn Bt]
-/// [rolling none|constant mu_r|sds kr gr mu_r]` from words[first] on and validates it.
+/// [rolling none|constant mu_r|sds kr gr mu_r] [twisting none|marshall]` from words[first] on and
+/// validates it.
 /// \param warnings  gets what deserves a line in the log
 /// \return index of the first word not read
 /// \throw std::invalid_argument naming argument, value and what is allowed
@@ -79,7 +80,7 @@ void require_valid(const Parameters &parameters, const LawSettings &settings, Wo
 std::string to_words(const Parameters &parameters);
 
 constexpr std::size_t packed_style_size = 7;
-constexpr std::size_t packed_parameters_size = 15;
+constexpr std::size_t packed_parameters_size = 16;
 
 /// Plain numbers for restart files, the format's version among the style's.
 std::array<double, packed_style_size> pack(const StyleArguments &style);

@@ -20,6 +20,7 @@ struct EnergyLedger {
     elastic.normal += share * energy.normal;
     elastic.tangential += share * energy.tangential;
     elastic.rolling += share * energy.rolling;
+    elastic.twisting += share * energy.twisting;
   }
 
   static bool wanted(Modify *modify)

@@ -73,8 +73,7 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
     size_peratom_cols = N_ATOM;
     peratom_freq = 1;
   }
-  history_size = parameters.rolling == eepa::RollingModel::sds ? eepa::SIZE_WITH_ROLLING
-                                                               : eepa::SIZE_WITHOUT_ROLLING;
+  history_size = eepa::history_size(parameters.rolling, parameters.twisting);
   n_values = history_size * surfaces.count();
   maxexchange = n_values;
   time_origin = update->ntimestep;
@@ -394,7 +393,7 @@ void FixWallGranEepa::unpack_restart(int i, int nth)
   if (count != n_values)
     error->one(FLERR,
                "fix {} wall/gran/eepa: the restart file has {} values a particle and the fix needs "
-               "{}: surfaces and rolling sds must be as they were",
+               "{}: surfaces, rolling sds and twisting must be as they were",
                id, count, n_values);
   std::copy_n(extra + at + 1, n_values, history[i]);
 }

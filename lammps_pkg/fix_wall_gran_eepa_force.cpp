@@ -129,7 +129,7 @@ void FixWallGranEepa::setup(int vflag)
 void FixWallGranEepa::post_force(int /*vflag*/)
 {
   if (!loop)
-    eepa::with_law(style.settings, parameters.rolling, [this](auto law) {
+    eepa::with_law(style.settings, parameters, [this](auto law) {
       loop = &FixWallGranEepa::contact_loop<decltype(law)>;
     });
   if (masses.has_bodies() && neighbor->ago == 0) masses.collect_bodies();
@@ -209,7 +209,8 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
   const bool store = update->setupflag == 0;
   const double time_step = store ? dt : 0.0;
   const int n_surfaces = surfaces.count();
-  constexpr bool rolling_spring = ContactLaw::Rolling::has_spring;
+  using Layout = typename ContactLaw::Layout;
+  const Vec3 wall_velocity(surfaces.velocity.data());
 
   eepa::Contact contact;
   for (const int i : candidates) {
@@ -238,20 +239,23 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
       contact.velocity = Vec3(v[i]) - point.velocity;
       contact.spin = arm * Vec3(omega[i]);
       contact.angular_velocity = Vec3(omega[i]);
+      contact.turn = 0.5 * time_step * surfaces.turning(point, Vec3(v[i]) - wall_velocity);
+      contact.twist =
+          eepa::twist_of_pair<double>(contact.normal, contact.angular_velocity, time_step);
 
-      eepa::History state = eepa::load_history<rolling_spring>(values);
+      eepa::History state = eepa::load_history<Layout>(values);
       if (point.overlap <= 0.0) {
         if (keep_ledger && store)
           ledger.dissipated.add(
               eepa::dissipation_of_opening<ContactLaw>(coefficients, contact, dt, state), 1.0);
-        eepa::store_history<rolling_spring>(eepa::History(), values);
+        eepa::store_history<Layout>(eepa::History(), values);
         continue;
       }
       if (point.overlap > radius[i]) stop_at_overlap(i, point.overlap);
       const eepa::History before = state;
       const eepa::Response response = ContactLaw::evaluate(
           coefficients, style.settings.limit_damping, contact, time_step, state);
-      if (store) eepa::store_history<rolling_spring>(state, values);
+      if (store) eepa::store_history<Layout>(state, values);
 
       const Vec3 force = ContactLaw::force_on_i(response, contact);
       if (keep_ledger) {
@@ -265,7 +269,7 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
                                 1.0);
       }
       Vec3 turn = -arm * ContactLaw::tangential_moment(response, contact);
-      if constexpr (ContactLaw::has_rolling) turn += response.rolling_torque;
+      if constexpr (ContactLaw::has_couple) turn += ContactLaw::couple_on_i(response, contact);
       for (int k = 0; k < 3; k++) {
         f[i][k] += force[k];
         torque[i][k] += turn[k];

@@ -97,7 +97,7 @@ PairGranEepa::~PairGranEepa()
 
 int PairGranEepa::history_size() const
 {
-  return rolling == eepa::RollingModel::sds ? eepa::SIZE_WITH_ROLLING : eepa::SIZE_WITHOUT_ROLLING;
+  return eepa::history_size(rolling, twisting);
 }
 
 void PairGranEepa::allocate()
@@ -183,11 +183,15 @@ void PairGranEepa::init_style()
   // an opening that falls on a rebuild must be booked, so such a contact outlives its end
   beyond_contact = keep_ledger ? 1 : 0;
 
-  // one rolling law serves all pairs of types: those without take part with mu_r = 0
+  // one law of rolling and of twisting serves all pairs of types: those without take part with a
+  // bound of 0
   rolling = eepa::RollingModel::none;
+  twisting = eepa::TwistingModel::none;
   for (int i = 1; i <= atom->ntypes; i++) {
     for (int j = i; j <= atom->ntypes; j++) {
       if (!setflag[i][j]) continue;
+      if (parameters[pair_index(i, j)].twisting != eepa::TwistingModel::none)
+        twisting = parameters[pair_index(i, j)].twisting;
       const eepa::RollingModel model = parameters[pair_index(i, j)].rolling;
       if (model == eepa::RollingModel::none) continue;
       if (rolling != eepa::RollingModel::none && rolling != model)
@@ -209,12 +213,13 @@ void PairGranEepa::init_history()
   if (restart_history_size && restart_history_size != size)
     error->all(FLERR,
                "{}: the restart file has {} values a contact and the pair_coeffs need {}; rolling "
-               "sds can not be switched on or off with a restart",
+               "sds and twisting can not be switched on or off with a restart",
                style_name, restart_history_size, size);
   if (!fix_history) {
     fix_history = ContactHistory::replace(lmp, history_id + "_DUMMY", history_id, size, this);
   } else if (fix_history->get_dnum() != size) {
-    error->all(FLERR, "{}: rolling sds can not be switched on or off after a run", style_name);
+    error->all(FLERR, "{}: rolling sds and twisting can not be switched on or off after a run",
+               style_name);
   }
   fix_history->end_interrupted_run();
   // LAMMPS would hand a history to whoever has the ID
@@ -422,10 +427,13 @@ void PairGranEepa::write_restart_settings(FILE *fp)
   if (!fix_history) {
     // as write_restart noinit before the first run has it: no rolling model is chosen yet, and the
     // histories of a restart file are not taken up
-    const bool springs = std::any_of(parameters.begin(), parameters.end(), [](const auto &pair) {
-      return pair.rolling == eepa::RollingModel::sds;
-    });
-    size = springs ? eepa::SIZE_WITH_ROLLING : eepa::SIZE_WITHOUT_ROLLING;
+    eepa::RollingModel rolls = eepa::RollingModel::none;
+    eepa::TwistingModel twists = eepa::TwistingModel::none;
+    for (const auto &pair : parameters) {
+      if (pair.rolling == eepa::RollingModel::sds) rolls = pair.rolling;
+      if (pair.twisting != eepa::TwistingModel::none) twists = pair.twisting;
+    }
+    size = eepa::history_size(rolls, twists);
     // LAMMPS calls this on rank 0 only
     error->warning(FLERR,
                    "{}: the restart file has no histories of contacts, because there was neither a "

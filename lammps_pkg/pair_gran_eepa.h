@@ -105,15 +105,18 @@ class PairGranEepa : public Pair {
     ROLLING_TORQUE_X,    ///< rolling torque on i
     ROLLING_TORQUE_Y,
     ROLLING_TORQUE_Z,
+    TWISTING_TORQUE,    ///< along the unit vector that points at i
+    ENERGY_TWISTING,
     N_SINGLE
   };
 
   eepa::StyleArguments style;
-  std::vector<eepa::Parameters> parameters;                 // as given or mixed, (ntypes+1)^2
-  std::vector<eepa::Coefficients> coefficients;             // resolved, (ntypes+1)^2
-  std::vector<eepa::Coefficients> coefficient_classes;      // the different ones among them
-  std::vector<int> class_of_pair;                           // (ntypes+1)^2
-  eepa::RollingModel rolling = eepa::RollingModel::none;    // of all types together
+  std::vector<eepa::Parameters> parameters;                    // as given or mixed, (ntypes+1)^2
+  std::vector<eepa::Coefficients> coefficients;                // resolved, (ntypes+1)^2
+  std::vector<eepa::Coefficients> coefficient_classes;         // the different ones among them
+  std::vector<int> class_of_pair;                              // (ntypes+1)^2
+  eepa::RollingModel rolling = eepa::RollingModel::none;       // of all types together
+  eepa::TwistingModel twisting = eepa::TwistingModel::none;    // likewise
   ContactMasses masses;
   double dt = 0.0;
 
@@ -133,7 +136,7 @@ class PairGranEepa : public Pair {
   Evaluate plainly = nullptr, fully = nullptr, evaluate = nullptr;
   void (PairGranEepa::*book_opening)(ContactSlice &, int, int, const double *) = nullptr;
   typedef double (PairGranEepa::*Single)(const eepa::Coefficients &, const eepa::Contact &,
-                                         eepa::History &, double &);
+                                         const double *, double, double &);
   Single single_law = nullptr;
 
   // of the force call that is under way
@@ -175,8 +178,8 @@ class PairGranEepa : public Pair {
   double share_of_pair(int j) const;
   [[noreturn]] void stop_at_overlap(int i, int j) const;
   template <class ContactLaw>
-  double single_contact(const eepa::Coefficients &, const eepa::Contact &, eepa::History &,
-                        double &);
+  double single_contact(const eepa::Coefficients &, const eepa::Contact &, const double *values,
+                        double sign, double &normal_force);
 };
 
 }    // namespace LAMMPS_NS

@@ -35,7 +35,7 @@ Eigen::Map<Vec3> vector_at(double *array, int i)
 
 void PairGranEepa::choose_law()
 {
-  eepa::with_law(style.settings, rolling, [this](auto law) {
+  eepa::with_law(style.settings, rolling, twisting, [this](auto law) {
     using ContactLaw = decltype(law);
     fully = &PairGranEepa::evaluate_fully<ContactLaw>;
 #ifdef EEPA_HAS_LANES
@@ -291,7 +291,7 @@ template <class ContactLaw>
 void PairGranEepa::evaluate_fully(ContactSlice &slice, const FoundContact *contacts, int count,
                                   const eepa::Coefficients &c)
 {
-  constexpr bool rolling_spring = ContactLaw::Rolling::has_spring;
+  using Layout = typename ContactLaw::Layout;
   // the set-up call computes forces from the stored state and leaves that as it is
   const bool store = update->setupflag == 0;
   const double time_step = store ? dt : 0.0;
@@ -306,17 +306,17 @@ void PairGranEepa::evaluate_fully(ContactSlice &slice, const FoundContact *conta
     if (factor == 0.0) continue;
 
     const Vec3 offset = particles.at(particles.x, i) - particles.at(particles.x, j);
-    const LeverArms arms = gather_contact<ContactLaw::has_rolling>(
-        particles, i, j, offset, eepa::squared_length<double>(offset), contact);
+    const LeverArms arms = gather_contact<ContactLaw::has_couple>(
+        particles, i, j, offset, eepa::squared_length<double>(offset), time_step, contact);
     slice.note_depth(i, j, contact.overlap, std::min(particles.radius[i], particles.radius[j]));
 
-    eepa::History history = eepa::load_history<rolling_spring>(found->history);
+    eepa::History history = eepa::load_history<Layout>(found->history);
     const eepa::History before = history;
     const bool first = !*found->status;
     eepa::Response response =
         ContactLaw::evaluate(c, style.settings.limit_damping, contact, time_step, history);
     *found->status = ContactStatus::of(response.branch, response.sliding);
-    if (store) eepa::store_history<rolling_spring>(history, found->history);
+    if (store) eepa::store_history<Layout>(history, found->history);
 
     eepa::StoredEnergy energy;
     if (eflag_either || keep_ledger)
@@ -333,9 +333,10 @@ void PairGranEepa::evaluate_fully(ContactSlice &slice, const FoundContact *conta
     const Vec3 pair_force = factor * ContactLaw::force_on_i(response, contact);
     const Vec3 moment = ContactLaw::tangential_moment(response, contact);
     Vec3 torque_i = -arms.i * moment, torque_j = -arms.j * moment;
-    if constexpr (ContactLaw::has_rolling) {
-      torque_i += response.rolling_torque;
-      torque_j -= response.rolling_torque;
+    if constexpr (ContactLaw::has_couple) {
+      const Vec3 couple = ContactLaw::couple_on_i(response, contact);
+      torque_i += couple;
+      torque_j -= couple;
     }
     vector_at(f, i) += pair_force;
     vector_at(torque, i) += factor * torque_i;
@@ -362,10 +363,10 @@ void PairGranEepa::book_opening_of(ContactSlice &slice, int i, int j, const doub
 {
   eepa::Contact contact;
   const Vec3 offset = particles.at(particles.x, i) - particles.at(particles.x, j);
-  gather_contact<true>(particles, i, j, offset, eepa::squared_length<double>(offset), contact);
+  gather_contact<true>(particles, i, j, offset, eepa::squared_length<double>(offset), dt, contact);
   slice.ledger.dissipated.add(eepa::dissipation_of_opening<ContactLaw>(
                                   coefficients[pair_index(atom->type[i], atom->type[j])], contact,
-                                  dt, eepa::load_history<ContactLaw::Rolling::has_spring>(values)),
+                                  dt, eepa::load_history<typename ContactLaw::Layout>(values)),
                               share_of_pair(j));
 }
 

@@ -22,7 +22,7 @@ using eepa::Vec3;
 
 void PairGranEepa::choose_single()
 {
-  eepa::with_law(style.settings, rolling, [this](auto law) {
+  eepa::with_law(style.settings, rolling, twisting, [this](auto law) {
     single_law = &PairGranEepa::single_contact<decltype(law)>;
   });
 }
@@ -58,20 +58,13 @@ double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, doub
                                     atom->rmass};
   eepa::Contact contact;
   gather_contact<true>(particles, i, j, particles.at(particles.x, i) - particles.at(particles.x, j),
-                       rsq, contact);
+                       rsq, 0.0, contact);
   contact.effective_mass = eepa::effective_mass(masses.mass(i), masses.mass(j));
-  eepa::History history;
   const double *values = nullptr;
   double sign = 1.0;
   const int status = find_history(i, j, values, sign);
-  if (status) {
-    history = history_size() == eepa::SIZE_WITH_ROLLING ? eepa::load_history<true>(values)
-                                                        : eepa::load_history<false>(values);
-    history.tangential_spring *= sign;
-    history.rolling_spring *= sign;
-  }
-  const double energy =
-      (this->*single_law)(coefficients[pair_index(itype, jtype)], contact, history, fforce);
+  const double energy = (this->*single_law)(coefficients[pair_index(itype, jtype)], contact,
+                                            status ? values : nullptr, sign, fforce);
   // what the last step found, where it saw this contact: a second evaluation can not tell the
   // end of the adhesive branch from the start of the line that leaves it
   if (status > ContactStatus::touching) {
@@ -84,8 +77,15 @@ double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, doub
 
 template <class ContactLaw>
 double PairGranEepa::single_contact(const eepa::Coefficients &c, const eepa::Contact &contact,
-                                    eepa::History &history, double &normal_force)
+                                    const double *values, double sign, double &normal_force)
 {
+  eepa::History history;
+  if (values) {
+    history = eepa::load_history<typename ContactLaw::Layout>(values);
+    // a twist has the same sign for both
+    history.tangential_spring *= sign;
+    history.rolling_spring *= sign;
+  }
   // the energies are those of the springs as the last step left them: an evaluation with the
   // velocities of the end of the step could let a sliding contact slip once more
   const eepa::History stored = history;
@@ -108,6 +108,8 @@ double PairGranEepa::single_contact(const eepa::Coefficients &c, const eepa::Con
   svector[ENERGY_ROLLING] = energy.rolling;
   if constexpr (ContactLaw::has_rolling)
     for (int k = 0; k < 3; k++) svector[ROLLING_TORQUE_X + k] = evaluated.rolling_torque[k];
+  if constexpr (ContactLaw::has_twisting) svector[TWISTING_TORQUE] = evaluated.twisting_torque;
+  svector[ENERGY_TWISTING] = energy.twisting;
   return energy.total();
 }
 

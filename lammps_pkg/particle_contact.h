@@ -25,12 +25,13 @@ struct LeverArms {
 };
 
 /// Gathers the contact of two overlapping particles.
-/// \tparam WithRolling  whether the law reads the effective radius and the angular velocities
+/// \tparam WithCouple  whether the law reads the effective radius and the angular velocities
 /// \param offset  x_i - x_j [length]
 /// \param distance_squared  of the centres, in (0, (R_i + R_j)^2)
-template <bool WithRolling>
+/// \param time_step  that led here; 0 in a set-up call
+template <bool WithCouple>
 inline LeverArms gather_contact(const ParticleArrays &p, int i, int j, const eepa::Vec3 &offset,
-                                double distance_squared, eepa::Contact &contact)
+                                double distance_squared, double time_step, eepa::Contact &contact)
 {
   using eepa::Vec3;
   const double radius_i = p.radius[i];
@@ -38,15 +39,20 @@ inline LeverArms gather_contact(const ParticleArrays &p, int i, int j, const eep
   const double distance = std::sqrt(distance_squared);
   contact.size = radius_i + radius_j;
   contact.overlap = contact.size - distance;
-  contact.normal = (1.0 / distance) * offset;    // one division, not three
+  const double inverse_distance = 1.0 / distance;    // one division, not three
+  contact.normal = inverse_distance * offset;
   contact.effective_mass = eepa::effective_mass(p.mass[i], p.mass[j]);
   contact.velocity = p.at(p.v, i) - p.at(p.v, j);
   const LeverArms arms = {eepa::lever_arm(radius_i, contact.overlap),
                           eepa::lever_arm(radius_j, contact.overlap)};
-  contact.spin = arms.i * p.at(p.omega, i) + arms.j * p.at(p.omega, j);
-  if constexpr (WithRolling) {
+  const Vec3 omega_i = p.at(p.omega, i), omega_j = p.at(p.omega, j);
+  contact.spin = arms.i * omega_i + arms.j * omega_j;
+  contact.turn =
+      eepa::turn_of_pair<double>(contact.normal, contact.velocity, inverse_distance, time_step);
+  contact.twist = eepa::twist_of_pair<double>(contact.normal, omega_i + omega_j, time_step);
+  if constexpr (WithCouple) {
     contact.effective_radius = eepa::effective_radius(radius_i, radius_j);
-    contact.angular_velocity = p.at(p.omega, i) - p.at(p.omega, j);
+    contact.angular_velocity = omega_i - omega_j;
   }
   return arms;
 }

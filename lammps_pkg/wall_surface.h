@@ -14,6 +14,7 @@ struct SurfacePoint {
   double overlap;         ///< R_i - distance; > 0 in contact [length]
   eepa::Vec3 normal;      ///< unit vector from the surface to the particle
   eepa::Vec3 velocity;    ///< of the surface at that point [length/time]
+  double curvature;       ///< 1/distance from a cylinder's axis, > 0 inside; 0 at a plane
 };
 
 /// The surfaces of one wall: two planes normal to an axis, or the lateral surface of a cylinder
@@ -70,6 +71,15 @@ class WallSurfaces {
                       displacement[1] - before.displacement[1]);
   }
 
+  /// How fast the normal turns, du/dt, while a particle moves along a surface [1/time]
+  /// \param velocity  of its centre, against the surface's translation [length/time]
+  static eepa::Vec3 turning(const SurfacePoint &point, const eepa::Vec3 &velocity)
+  {
+    // inside a cylinder the normal points at the axis: it turns against the way of the particle
+    const eepa::Vec3 around(velocity[0], velocity[1], 0.0);
+    return -point.curvature * (around - around.dot(point.normal) * point.normal);
+  }
+
   /// \param surface  0 .. count() - 1
   /// \param x  centre of a particle of radius `particle_radius`
   SurfacePoint nearest(int surface, const double *x, double particle_radius) const
@@ -81,6 +91,7 @@ class WallSurfaces {
       point.overlap = particle_radius - plane_distance(surface, x);
       point.normal.setZero();
       point.normal[dim] = is_lower(surface) ? 1.0 : -1.0;
+      point.curvature = 0.0;
       return point;
     }
     const double dx = x[0] - displacement[0];
@@ -91,6 +102,7 @@ class WallSurfaces {
     eepa::Vec3 radial(1.0, 0.0, 0.0);    // any direction serves a particle on the axis
     if (from_axis > 0.0) radial = eepa::Vec3(dx / from_axis, dy / from_axis, 0.0);
     point.normal = -inside * radial;
+    point.curvature = from_axis > 0.0 ? inside / from_axis : 0.0;
     point.velocity += surface_speed * eepa::Vec3(radial[1], -radial[0], 0.0);
     return point;
   }

@@ -86,7 +86,7 @@ void evaluate_all(benchmark::State &state, const Choice &choice, Kind kind, std:
 template <class Real>
 void add(const Choice &choice, Kind kind, std::size_t contacts, const char *place)
 {
-  eepa::with_law(choice.settings, choice.parameters.rolling, [&](auto law) {
+  eepa::with_law(choice.settings, choice.parameters, [&](auto law) {
     using ContactLaw = decltype(law);
     benchmark::RegisterBenchmark((choice.name(kind) + "/" + place).c_str(),
                                  [choice, kind, contacts](benchmark::State &state) {
@@ -113,8 +113,10 @@ int main(int argc, char **argv)
 #ifdef EEPA_HAS_LANES
   benchmark::AddCustomContext("lanes", std::to_string(width<eepa::Lanes>));
 #endif
-  benchmark::AddCustomContext("history_doubles", std::to_string(eepa::SIZE_WITHOUT_ROLLING));
-  benchmark::AddCustomContext("history_doubles_sds", std::to_string(eepa::SIZE_WITH_ROLLING));
+  benchmark::AddCustomContext("history_doubles",
+                              std::to_string(eepa::HistoryLayout<false, false>::size));
+  benchmark::AddCustomContext("history_doubles_sds",
+                              std::to_string(eepa::HistoryLayout<true, false>::size));
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

@@ -15,7 +15,7 @@ int main()
   std::printf("law,branch,rolling,additions,multiplications,divisions,roots,powers,comparisons\n");
   for (const Choice &choice : all_choices()) {
     for (Kind kind : all_kinds) {
-      eepa::with_law(choice.settings, choice.parameters.rolling, [&](auto law) {
+      eepa::with_law(choice.settings, choice.parameters, [&](auto law) {
         using ContactLaw = decltype(law);
         auto packs = pack<Counted>(make_samples<ContactLaw>(choice, kind, contacts));
         const eepa::Coefficients c = eepa::resolve(choice.parameters, choice.settings);

@@ -145,6 +145,8 @@ std::vector<Sample> make_samples(const Choice &choice, Kind kind, std::size_t co
     contact.spin = 1e-3 * random() * contact.normal;
     contact.angular_velocity = random.between(1.0, 20.0) *
         (slides || !ContactLaw::Rolling::has_spring ? tangent : contact.normal);
+    contact.turn = 1e-5 * tangent;
+    contact.twist = 1e-5 * random();
 
     eepa::History &history = sample.history;
     history.max_overlap = own == Kind::unloading ? contact.overlap / 0.7
@@ -201,11 +203,14 @@ template <class Real> std::vector<Pack<Real>> pack(const std::vector<Sample> &sa
     set_lane(to.velocity, lane, from.velocity);
     set_lane(to.spin, lane, from.spin);
     set_lane(to.angular_velocity, lane, from.angular_velocity);
+    set_lane(to.turn, lane, from.turn);
+    set_lane(to.twist, lane, from.twist);
     const eepa::History &old = samples[k].history;
     eepa::HistoryOf<Real> &history = packs[k / width<Real>].history;
     set_lane(history.max_overlap, lane, old.max_overlap);
     set_lane(history.tangential_spring, lane, old.tangential_spring);
     set_lane(history.rolling_spring, lane, old.rolling_spring);
+    set_lane(history.twisting_spring, lane, old.twisting_spring);
   }
   return packs;
 }

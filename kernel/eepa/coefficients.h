@@ -23,6 +23,7 @@ struct Coefficients {
   double viscous_normal;         ///< given B_n, else 0
   double viscous_tangential;     ///< given B_t, else 0
   double mu_r, kr, inverse_kr, rolling_viscous;
+  double twisting_share;                ///< of the friction bound; 0 where twisting is free
   double exponent;                      ///< n
   double inverse_reference_diameter;    ///< 1/d_ref, or 0 when nothing scales
   bool limit_damping;                   ///< as in LawSettings; read by the energy ledger only
@@ -99,6 +100,8 @@ EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
     c.inverse_kr = p.kr > 0.0 ? 1.0 / p.kr : 0.0;
     c.rolling_viscous = p.rolling_viscous;
   }
+  // 2/3 a over the arm a/sqrt(2)
+  if (p.twisting == TwistingModel::marshall) c.twisting_share = 2.0 / 3.0 * std::sqrt(2.0);
   return c;
 }
 

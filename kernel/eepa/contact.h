@@ -17,9 +17,39 @@ template <class Real> struct ContactOf {
   Real effective_radius;             ///< R*, see effective_radius()
   Vector3<Real> velocity;            ///< v_i - v_j [length/time]
   Vector3<Real> spin;                ///< a_i omega_i + a_j omega_j [length/time]
-  Vector3<Real> angular_velocity;    ///< omega_i - omega_j [1/time], read by rolling models only
+  Vector3<Real> turn;                ///< of u since the middle of the step, see turn_of_pair()
+  Real twist;                        ///< angle about u in this step, see twist_of_pair()
+  Vector3<Real> angular_velocity;    ///< omega_i - omega_j [1/time], for rolling and twisting only
 };
 using Contact = ContactOf<double>;
+
+// A force call at the end of a step sees positions of now and velocities of half a step ago. A
+// displacement is made of a velocity and a normal of the same time, so the normal of the middle
+// of the step is asked for: with a velocity dt/2 older than the normal, a pair whose normal turns
+// while it spins about that normal winds its springs by dt/2 (spin.u) |du/dt|, in every step the
+// same way.
+
+/// How far u has turned since the middle of the step, u(t) - u(t - dt/2), of two particles.
+/// \param velocity  v_i - v_j [length/time]
+/// \param inverse_distance  of their centres [1/length]
+/// \param time_step  that led here; 0 in a set-up call [time]
+template <class Real>
+EEPA_FUNCTION Vector3<Real> turn_of_pair(const Vector3<Real> &normal, const Vector3<Real> &velocity,
+                                         const Real &inverse_distance, double time_step)
+{
+  const Vector3<Real> across = velocity - dot(velocity, normal) * normal;
+  return (Real(0.5 * time_step) * inverse_distance) * across;
+}
+
+/// The angle by which the pair has turned about u in a step: that of its mean angular velocity.
+/// Springs turn with it, so that a pair that rotates rigidly keeps its own.
+/// \param angular_sum  omega_i + omega_j; a wall does not turn [1/time]
+template <class Real>
+EEPA_FUNCTION Real twist_of_pair(const Vector3<Real> &normal, const Vector3<Real> &angular_sum,
+                                 double time_step)
+{
+  return Real(0.5 * time_step) * dot(angular_sum, normal);
+}
 
 /// m* = m_i m_j / (m_i + m_j); the other mass when one is infinite (frozen, a wall).
 /// \param mass_i, mass_j  > 0, infinity allowed
@@ -49,15 +79,62 @@ template <class Real> EEPA_FUNCTION Real lever_arm(const Real &radius, const Rea
   return radius - 0.5 * overlap;
 }
 
+/// A vector of the middle of the step as the plane across u had it there: its part in the tangent
+/// plane, carried over to the plane of now, to first order in the turn. A part along u besides.
+template <class Real>
+EEPA_FUNCTION Vector3<Real> seen_at_mid_step(const ContactOf<Real> &c, const Vector3<Real> &vector)
+{
+  return vector + dot(vector, c.normal) * c.turn;
+}
+
 /// Relative velocity of the two surfaces in the tangent plane (contract, section 1).
 ///
 /// v_t = (v_i - v_j) - ((v_i - v_j).u) u - (a_i omega_i + a_j omega_j) x u
+///
+/// with the u of the middle of the step, where the velocities belong, carried over to the plane of
+/// now. The velocity of the centres needs no correction but one of v_n, that comes and goes with
+/// the overlap; the spin does, because what of it lies along u depends on where u points.
 /// \param normal_velocity  v_n = (v_i - v_j).u
 template <class Real>
 EEPA_FUNCTION Vector3<Real> tangential_velocity(const ContactOf<Real> &c,
                                                 const Real &normal_velocity)
 {
-  return c.velocity - normal_velocity * c.normal - c.spin.cross(c.normal);
+  return c.velocity - normal_velocity * c.normal - seen_at_mid_step(c, c.spin).cross(c.normal);
+}
+
+// Winding a spring: it is rotated into the plane of now and turns about u by the twist of the step,
+// as the pair has (as in Yade's ScGeom::rotate); the way of the step is from its middle and turns by
+// half of that. The angle is the twist's arc tangent, which is twist^3/3 less.
+
+namespace detail {
+  /// The spring in the plane of now, so much shorter that turning, + twist u x, restores its length:
+  /// by 1/sqrt(1 + twist^2), as a series that is exact for the twist of 1e-3 of a fast particle.
+  template <class Real>
+  EEPA_FUNCTION Vector3<Real> before_turning(const Vector3<Real> &spring, const ContactOf<Real> &c)
+  {
+    const Real squared = c.twist * c.twist;
+    return rotate_into_plane<Real>(spring, c.normal, 1.0 - squared * (0.5 - 0.375 * squared));
+  }
+}    // namespace detail
+
+/// A spring after a step.
+/// \param spring  in the tangent plane of the step before
+/// \param velocity  in the tangent plane
+template <class Real>
+EEPA_FUNCTION Vector3<Real> wind(const Vector3<Real> &spring, const Vector3<Real> &velocity,
+                                 double time_step, const ContactOf<Real> &c)
+{
+  const Vector3<Real> half_way = Real(0.5 * time_step) * velocity;
+  const Vector3<Real> turning = detail::before_turning(spring, c) + half_way;
+  return turning + half_way + c.twist * c.normal.cross(turning);
+}
+
+/// What of it is the old spring.
+template <class Real>
+EEPA_FUNCTION Vector3<Real> carry_over(const Vector3<Real> &spring, const ContactOf<Real> &c)
+{
+  const Vector3<Real> carried = detail::before_turning(spring, c);
+  return carried + c.twist * c.normal.cross(carried);
 }
 
 }    // namespace eepa

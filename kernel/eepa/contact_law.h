@@ -8,6 +8,7 @@
 #include "normal_law.h"
 #include "rolling_law.h"
 #include "tangential_law.h"
+#include "twisting_law.h"
 
 namespace eepa {
 
@@ -18,6 +19,7 @@ template <class Real> struct ResponseOf {
   Real hysteretic_force;             ///< f_hys [force]
   Vector3<Real> tangential_force;    ///< on i [force]
   Vector3<Real> rolling_torque;      ///< on i [force length]; unset when the model is RollingNone
+  Real twisting_torque;              ///< on i along u [force length]; unset with TwistingNone
   Real friction_bound;               ///< what |f_t| can not exceed, >= 0 [force]
   BranchOf<Real> branch;
   MaskOf<Real> sliding;
@@ -29,7 +31,8 @@ struct StoredEnergy {
   double normal = 0.0;        ///< of the hysteretic spring and the pull-off force
   double tangential = 0.0;    ///< of the tangential spring
   double rolling = 0.0;       ///< of the rolling spring
-  EEPA_FUNCTION double total() const { return normal + tangential + rolling; }
+  double twisting = 0.0;      ///< of the twisting spring
+  EEPA_FUNCTION double total() const { return normal + tangential + rolling + twisting; }
 };
 
 /// Coefficients of the dashpots of a contact [mass/time]
@@ -64,15 +67,20 @@ EEPA_FUNCTION Real friction_bound(const Coefficients &c, const NormalForceOf<Rea
   return larger<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, 0.0);
 }
 
-/// The law of one contact: normal, tangential, damping and rolling composed.
+/// The law of one contact: normal, tangential, damping, rolling and twisting composed.
 /// \tparam NormalLaw  PlateauLaw, LinearLaw<UnitExponent> or LinearLaw<GeneralExponent>
 /// \tparam RollingLaw  RollingNone, RollingConstant or RollingSds
-template <class NormalLaw, class RollingLaw> struct ContactLaw {
+/// \tparam TwistingLaw  TwistingNone or TwistingMarshall
+template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> struct ContactLaw {
   using Normal = NormalLaw;
   using Rolling = RollingLaw;
+  using Twisting = TwistingLaw;
+  using Layout = HistoryLayout<RollingLaw::has_spring, TwistingLaw::has_spring>;
   static constexpr bool has_rolling = RollingLaw::model != RollingModel::none;
-  static constexpr int history_size = RollingLaw::has_spring ? SIZE_WITH_ROLLING
-                                                             : SIZE_WITHOUT_ROLLING;
+  static constexpr bool has_twisting = TwistingLaw::model != TwistingModel::none;
+  /// whether it gives a couple beside the torques of friction, from the relative angular velocity
+  static constexpr bool has_couple = has_rolling || has_twisting;
+  static constexpr int history_size = Layout::size;
 
   /// Forces of a contact and its state after this step.
   ///
@@ -107,7 +115,7 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
     response.friction_bound = friction_bound(c, normal);
     const Vector3<Real> velocity = tangential_velocity(contact, normal_velocity);
     Vector3<Real> &spring = history.tangential_spring;
-    spring = rotate_into_plane(spring, contact.normal) + Real(time_step) * velocity;
+    spring = wind<Real>(spring, velocity, time_step, contact);
     const SliderForce<Real> friction =
         slider_force<Real>(scale.stiffness() * c.kt, scale.inverse_size * c.inverse_kt,
                            viscous.tangential, response.friction_bound, velocity, spring);
@@ -118,6 +126,10 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
       response.rolling_torque =
           RollingLaw::torque(c, scale, contact, Real(abs(normal.force)),
                              viscous.root_mass_stiffness, time_step, history.rolling_spring);
+    if constexpr (has_twisting)
+      response.twisting_torque = TwistingLaw::torque(
+          c, contact, scale.stiffness() * c.kt, scale.inverse_size * c.inverse_kt,
+          viscous.tangential, response.friction_bound, time_step, history.twisting_spring);
     return response;
   }
 
@@ -133,6 +145,9 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
     energy.tangential = spring_energy(scale.stiffness() * c.kt, history.tangential_spring);
     if constexpr (RollingLaw::has_spring)
       energy.rolling = spring_energy(scale.stiffness() * c.kr, history.rolling_spring);
+    if constexpr (TwistingLaw::has_spring)
+      energy.twisting =
+          0.5 * scale.stiffness() * c.kt * history.twisting_spring * history.twisting_spring;
     return energy;
   }
 
@@ -142,6 +157,20 @@ template <class NormalLaw, class RollingLaw> struct ContactLaw {
                                                 const ContactOf<Real> &contact)
   {
     return response.normal_force * contact.normal + response.tangential_force;
+  }
+
+  /// Couple of rolling and twisting on i, j gets the opposite one; only where has_couple.
+  template <class Real>
+  EEPA_FUNCTION static Vector3<Real> couple_on_i(const ResponseOf<Real> &response,
+                                                 const ContactOf<Real> &contact)
+  {
+    static_assert(has_couple, "there is none");
+    if constexpr (!has_twisting)
+      return response.rolling_torque;
+    else if constexpr (!has_rolling)
+      return response.twisting_torque * contact.normal;
+    else
+      return response.rolling_torque + response.twisting_torque * contact.normal;
   }
 
   /// u x f_t: times -lever_arm() it is the tangential force's torque on either partner.

@@ -10,30 +10,47 @@
 namespace eepa {
 
 namespace detail {
-  template <class NormalLaw, class Function>
+  template <class NormalLaw, class TwistingLaw, class Function>
   auto with_rolling(RollingModel model, Function &&function)
   {
     switch (model) {
       case RollingModel::constant:
-        return function(ContactLaw<NormalLaw, RollingConstant>{});
+        return function(ContactLaw<NormalLaw, RollingConstant, TwistingLaw>{});
       case RollingModel::sds:
-        return function(ContactLaw<NormalLaw, RollingSds>{});
+        return function(ContactLaw<NormalLaw, RollingSds, TwistingLaw>{});
       case RollingModel::none:
         break;
     }
-    return function(ContactLaw<NormalLaw, RollingNone>{});
+    return function(ContactLaw<NormalLaw, RollingNone, TwistingLaw>{});
+  }
+
+  template <class NormalLaw, class Function>
+  auto with_models(RollingModel rolling, TwistingModel twisting, Function &&function)
+  {
+    if (twisting == TwistingModel::marshall)
+      return with_rolling<NormalLaw, TwistingMarshall>(rolling, function);
+    return with_rolling<NormalLaw, TwistingNone>(rolling, function);
   }
 }    // namespace detail
 
 /// Calls `function` with the ContactLaw that the settings name.
 /// \param function  generic callable; its return type must not depend on the law
 template <class Function>
-auto with_law(const LawSettings &settings, RollingModel model, Function &&function)
+auto with_law(const LawSettings &settings, RollingModel rolling, TwistingModel twisting,
+              Function &&function)
 {
-  if (settings.law == Law::plateau) return detail::with_rolling<PlateauLaw>(model, function);
+  if (settings.law == Law::plateau)
+    return detail::with_models<PlateauLaw>(rolling, twisting, function);
   if (settings.exponent == 1.0)
-    return detail::with_rolling<LinearLaw<UnitExponent>>(model, function);
-  return detail::with_rolling<LinearLaw<GeneralExponent>>(model, function);
+    return detail::with_models<LinearLaw<UnitExponent>>(rolling, twisting, function);
+  return detail::with_models<LinearLaw<GeneralExponent>>(rolling, twisting, function);
+}
+
+/// The same with the models of a pair of types.
+template <class Function>
+auto with_law(const LawSettings &settings, const Parameters &parameters, Function &&function)
+{
+  return with_law(settings, parameters.rolling, parameters.twisting, function);
 }
 
 }    // namespace eepa

@@ -14,10 +14,11 @@ struct Dissipation {
   double tangential_dashpot = 0.0;
   double sliding = 0.0;
   double rolling = 0.0;
+  double twisting = 0.0;
 
   EEPA_FUNCTION double total() const
   {
-    return hysteresis + normal_dashpot + tangential_dashpot + sliding + rolling;
+    return hysteresis + normal_dashpot + tangential_dashpot + sliding + rolling + twisting;
   }
   EEPA_FUNCTION void add(const Dissipation &other, double share)
   {
@@ -26,6 +27,7 @@ struct Dissipation {
     tangential_dashpot += share * other.tangential_dashpot;
     sliding += share * other.sliding;
     rolling += share * other.rolling;
+    twisting += share * other.twisting;
   }
 };
 
@@ -62,10 +64,17 @@ namespace detail {
   }
 
   /// Loss of a slider over one step: the spring's trapezoid work less what it stores of it.
+  /// \param before, after  the spring at its begin, carried over, and at its end
+  /// \param trial  as wound, before the slider: exactly `after` where nothing slid
   EEPA_FUNCTION double slip_loss(double stiffness, const Vec3 &before, const Vec3 &after,
-                                 const Vec3 &displacement)
+                                 const Vec3 &trial)
   {
-    return 0.5 * stiffness * (before + after).dot(before + displacement - after);
+    return 0.5 * stiffness * (before + after).dot(trial - after);
+  }
+  /// The same of a spring of one dimension.
+  EEPA_FUNCTION double slip_loss(double stiffness, double before, double after, double trial)
+  {
+    return 0.5 * stiffness * (before + after) * (trial - after);
   }
 
   /// Loss of a spring that is let go in a step: what it stored and its trapezoid work. That takes
@@ -109,7 +118,7 @@ namespace detail {
     if constexpr (ContactLaw::has_rolling) {
       using Rolling = typename ContactLaw::Rolling;
       const double hysteretic = std::fabs(normal.force), radius = contact.effective_radius;
-      const double rate = rolling_velocity(contact).norm();
+      const double rate = Rolling::velocity(contact).norm();
       if constexpr (Rolling::has_spring)
         lost.rolling += time_step *
             dashpot_before(Rolling::dashpot(c, scale),
@@ -119,6 +128,14 @@ namespace detail {
         lost.rolling += time_step *
             dashpot_before(Rolling::dashpot(radius, viscous.root_mass_stiffness),
                            Rolling::bound(c, radius, hysteretic), rate);
+    }
+    if constexpr (ContactLaw::has_twisting) {
+      using Twisting = typename ContactLaw::Twisting;
+      const double speed =
+          std::fabs(Twisting::arm(contact.effective_radius, overlap) * twisting_velocity(contact));
+      const double limit =
+          last.twisting_spring != 0.0 ? HUGE_VAL : Twisting::bound(c, friction_bound(c, normal));
+      lost.twisting += time_step * dashpot_before(viscous.tangential, limit, speed);
     }
   }
 }    // namespace detail
@@ -158,16 +175,16 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
   const double taken = time_step *
       detail::dashpot_now(viscous.tangential, dashpot.norm(), velocity.norm(),
                           -dashpot.dot(velocity));
-  lost.sliding =
-      detail::slip_loss(stiffness, rotate_into_plane(before.tangential_spring, contact.normal),
-                        after.tangential_spring, time_step * velocity);
+  lost.sliding = detail::slip_loss(
+      stiffness, carry_over(before.tangential_spring, contact), after.tangential_spring,
+      wind<double>(before.tangential_spring, velocity, time_step, contact));
   // a spring that was let go and drives: its part of the slip
   (taken < 0.0 ? lost.sliding : lost.tangential_dashpot) += taken;
 
   if constexpr (ContactLaw::has_rolling) {
     using Rolling = typename ContactLaw::Rolling;
     // torque . (omega_i - omega_j) is the power of either model
-    const Vec3 rate = rolling_velocity(contact);
+    const Vec3 rate = Rolling::velocity(contact);
     const double radius = contact.effective_radius;
     if constexpr (Rolling::has_spring) {
       const double kr = scale.stiffness() * c.kr;
@@ -176,14 +193,24 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
       lost.rolling += time_step *
               detail::dashpot_now(Rolling::dashpot(c, scale), viscous_part.norm(), rolled.norm(),
                                   -viscous_part.dot(rolled)) +
-          detail::slip_loss(kr, rotate_into_plane(before.rolling_spring, contact.normal),
-                            after.rolling_spring, time_step * rolled);
+          detail::slip_loss(kr, carry_over(before.rolling_spring, contact), after.rolling_spring,
+                            wind<double>(before.rolling_spring, rolled, time_step, contact));
     } else {
       const double torque = response.rolling_torque.norm(), spin = rate.norm();
       lost.rolling += time_step *
           detail::dashpot_now(Rolling::dashpot(radius, viscous.root_mass_stiffness), torque, spin,
                               torque * spin);
     }
+  }
+  if constexpr (ContactLaw::has_twisting) {
+    const double arm = ContactLaw::Twisting::arm(contact.effective_radius, contact.overlap);
+    const double twisted = arm * twisting_velocity(contact);
+    const double viscous_part = response.twisting_torque / arm + stiffness * after.twisting_spring;
+    lost.twisting += time_step *
+            detail::dashpot_now(viscous.tangential, std::fabs(viscous_part), std::fabs(twisted),
+                                -viscous_part * twisted) +
+        detail::slip_loss(stiffness, before.twisting_spring, after.twisting_spring,
+                          before.twisting_spring + time_step * twisted);
   }
   return lost;
 }
@@ -201,9 +228,12 @@ EEPA_FUNCTION Dissipation dissipation_of_opening(const Coefficients &c, const Co
   const Vec3 slip = time_step * tangential_velocity(contact, dot(contact.velocity, contact.normal));
   lost.sliding = detail::release_loss(scale.stiffness() * c.kt, last.tangential_spring, slip);
   if constexpr (ContactLaw::Rolling::has_spring)
-    lost.rolling =
-        detail::release_loss(scale.stiffness() * c.kr, last.rolling_spring,
-                             time_step * contact.effective_radius * rolling_velocity(contact));
+    lost.rolling = detail::release_loss(scale.stiffness() * c.kr, last.rolling_spring,
+                                        time_step * contact.effective_radius *
+                                            ContactLaw::Rolling::velocity(contact));
+  // its arm has come to nothing: no force, but what was stored
+  if constexpr (ContactLaw::Twisting::has_spring)
+    lost.twisting = 0.5 * scale.stiffness() * c.kt * last.twisting_spring * last.twisting_spring;
   detail::book_step_before<ContactLaw>(c, scale, contact, time_step, last, lost);
   return lost;
 }

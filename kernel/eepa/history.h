@@ -3,19 +3,34 @@
 #define EEPA_HISTORY_H
 
 #include "lane_rows.h"
+#include "parameters.h"
 #include "vector.h"
 
 namespace eepa {
 
 /// Where each quantity of a contact's state lies in a driver's flat array of doubles.
-/// This list is the only place that knows.
+/// This list and HistoryLayout are the only places that know.
 enum HistoryIndex : int {
   MAX_OVERLAP = 0,          ///< overlap where unloading meets loading [length], >= 0
   TANGENTIAL_SPRING = 1,    ///< 1..3: tangential spring of i against j [length]
-  ROLLING_SPRING = 4,       ///< 4..6: rolling spring, with RollingModel::sds only [length]
-  SIZE_WITHOUT_ROLLING = 4,
-  SIZE_WITH_ROLLING = 7
+  N_ALWAYS = 4,
+  ROLLING_SPRING = 4    ///< 4..6: rolling spring, with RollingModel::sds only [length]
 };
+
+/// What follows the quantities that every law has.
+/// \tparam Rolling, Twisting  whether the law has a spring of either
+template <bool Rolling, bool Twisting> struct HistoryLayout {
+  static constexpr bool rolling = Rolling, twisting = Twisting;
+  static constexpr int twisting_spring = N_ALWAYS + (Rolling ? 3 : 0);    ///< its place, [length]
+  static constexpr int size = twisting_spring + (Twisting ? 1 : 0);
+};
+
+/// Values of a contact, of models that a user chose.
+EEPA_FUNCTION int history_size(RollingModel rolling, TwistingModel twisting)
+{
+  return N_ALWAYS + (rolling == RollingModel::sds ? 3 : 0) +
+      (twisting == TwistingModel::marshall ? 1 : 0);
+}
 
 /// The state that a contact remembers from step to step.
 template <class Real> struct HistoryOf {
@@ -24,29 +39,43 @@ template <class Real> struct HistoryOf {
   Vector3<Real> tangential_spring = Vector3<Real>::Constant(Real(0.0));
   /// rolling of i against j along its spin [length]
   Vector3<Real> rolling_spring = Vector3<Real>::Constant(Real(0.0));
+  /// twisting of i against j about the normal, times an arm [length]
+  Real twisting_spring = 0.0;
 };
 using History = HistoryOf<double>;
+
+namespace detail {
+  /// A twist does not change its sign with i and j, and yet LAMMPS turns it: back again, where the
+  /// overlap stored with it has become negative.
+  template <class Real> EEPA_FUNCTION Real twist_of(const Real &stored, const Real &max_overlap)
+  {
+    return select(max_overlap < 0.0, -stored, stored);
+  }
+}    // namespace detail
 
 /// Reads a state from a driver's flat array.
 ///
 /// LAMMPS hands the array over with every sign turned when i and j change places: right for
-/// the springs, and harmless for the overlap because its magnitude is read.
-/// \tparam WithRolling  whether the array has the rolling spring
-/// \param values  SIZE_WITH_ROLLING or SIZE_WITHOUT_ROLLING doubles
-template <bool WithRolling> EEPA_FUNCTION History load_history(const double *values)
+/// the springs that are vectors, and harmless for the overlap because its magnitude is read.
+/// \tparam Layout  a HistoryLayout
+/// \param values  Layout::size doubles
+template <class Layout> EEPA_FUNCTION History load_history(const double *values)
 {
   History history;
   history.max_overlap = std::fabs(values[MAX_OVERLAP]);
   history.tangential_spring = Eigen::Map<const Vec3>(values + TANGENTIAL_SPRING);
-  if constexpr (WithRolling)
+  if constexpr (Layout::rolling)
     history.rolling_spring = Eigen::Map<const Vec3>(values + ROLLING_SPRING);
+  if constexpr (Layout::twisting)
+    history.twisting_spring =
+        detail::twist_of(values[Layout::twisting_spring], values[MAX_OVERLAP]);
   return history;
 }
 
 #ifdef EEPA_HAS_LANES
 /// Reads the states of several contacts.
 /// \param values  as for one contact, for each lane
-template <bool WithRolling>
+template <class Layout>
 EEPA_FUNCTION HistoryOf<Lanes> load_history(const LanePointers<double> &values)
 {
   using std::abs;
@@ -56,37 +85,46 @@ EEPA_FUNCTION HistoryOf<Lanes> load_history(const LanePointers<double> &values)
   history.max_overlap = abs(row[MAX_OVERLAP]);
   history.tangential_spring = Vector3<Lanes>(row[TANGENTIAL_SPRING], row[TANGENTIAL_SPRING + 1],
                                              row[TANGENTIAL_SPRING + 2]);
-  if constexpr (WithRolling) {
-    LanePointers<const double> rolling;
+  LanePointers<const double> more;
+  if constexpr (Layout::rolling) {
     for (std::size_t lane = 0; lane < Lanes::size(); lane++)
-      rolling[lane] = values[lane] + ROLLING_SPRING;
-    history.rolling_spring = gather_rows(rolling);
+      more[lane] = values[lane] + ROLLING_SPRING;
+    history.rolling_spring = gather_rows(more);
+  }
+  if constexpr (Layout::twisting) {
+    for (std::size_t lane = 0; lane < Lanes::size(); lane++)
+      more[lane] = values[lane] + Layout::twisting_spring;
+    history.twisting_spring = detail::twist_of(gather_numbers(more), row[MAX_OVERLAP]);
   }
   return history;
 }
 #endif
 
 /// Writes a state to a driver's flat array; the inverse of load_history.
-template <bool WithRolling> EEPA_FUNCTION void store_history(const History &history, double *values)
+template <class Layout> EEPA_FUNCTION void store_history(const History &history, double *values)
 {
   values[MAX_OVERLAP] = history.max_overlap;
   Eigen::Map<Vec3>(values + TANGENTIAL_SPRING) = history.tangential_spring;
-  if constexpr (WithRolling) Eigen::Map<Vec3>(values + ROLLING_SPRING) = history.rolling_spring;
+  if constexpr (Layout::rolling) Eigen::Map<Vec3>(values + ROLLING_SPRING) = history.rolling_spring;
+  if constexpr (Layout::twisting) values[Layout::twisting_spring] = history.twisting_spring;
 }
 
 #ifdef EEPA_HAS_LANES
 /// Writes the states of several contacts.
-template <bool WithRolling>
+template <class Layout>
 EEPA_FUNCTION void store_history(const HistoryOf<Lanes> &history,
                                  const LanePointers<double> &values)
 {
   const Vector3<Lanes> &spring = history.tangential_spring;
   scatter_rows_of_4({history.max_overlap, spring[0], spring[1], spring[2]}, values);
-  if constexpr (WithRolling) {
+  if constexpr (Layout::rolling) {
     const LaneRows rolling(history.rolling_spring);
     for (std::size_t lane = 0; lane < Lanes::size(); lane++)
       rolling.store(values[lane] + ROLLING_SPRING, lane);
   }
+  if constexpr (Layout::twisting)
+    for (std::size_t lane = 0; lane < Lanes::size(); lane++)
+      values[lane][Layout::twisting_spring] = history.twisting_spring[lane];
 }
 #endif
 

@@ -57,6 +57,7 @@ inline bool mix(const Parameters &a, const Parameters &b, Parameters &mixed, std
     mixed.kr = detail::series(a.kr, b.kr);
     mixed.rolling_viscous = detail::series(a.rolling_viscous, b.rolling_viscous);
   }
+  if (a.twisting == b.twisting) mixed.twisting = a.twisting;
   return true;
 }
 

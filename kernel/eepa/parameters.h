@@ -12,6 +12,9 @@ enum class Law { plateau, linear };
 /// How a contact resists rolling.
 enum class RollingModel { none, constant, sds };
 
+/// How a contact resists twisting, that is relative spin about its normal.
+enum class TwistingModel { none, marshall };
+
 /// How the dashpots are given.
 enum class Damping { restitution, viscous };
 
@@ -46,6 +49,8 @@ struct Parameters {
   double mu_r = 0.0;               ///< rolling friction, >= 0
   double kr = 0.0;                 ///< sds: rolling stiffness, >= 0 [force/length]
   double rolling_viscous = 0.0;    ///< sds: rolling dashpot, >= 0 [force time/length]
+
+  TwistingModel twisting = TwistingModel::none;    ///< its coefficients are those of sliding
 };
 
 /// The tangential stiffness: as given, or 2/7 k1 (article, section 2).

@@ -12,7 +12,7 @@ namespace eepa {
 // Rolling models are compile-time policies with one function,
 //   torque(coefficients, scale, contact, |f_hys|, sqrt(m* k), time step, spring)
 // that returns the torque on i; j gets the opposite one. `spring` is read and written by Sds
-// only. All act on the part of omega_i - omega_j in the tangent plane: twisting is free.
+// only. All act on the part of omega_i - omega_j in the tangent plane; twisting_law.h has the other.
 
 /// The part of omega_i - omega_j in the tangent plane [1/time]
 template <class Real> EEPA_FUNCTION Vector3<Real> rolling_velocity(const ContactOf<Real> &contact)
@@ -37,6 +37,11 @@ struct RollingConstant {
   static constexpr RollingModel model = RollingModel::constant;
   static constexpr bool has_spring = false;
 
+  /// No spring is wound by it: the plane of now does.
+  template <class Real> EEPA_FUNCTION static Vector3<Real> velocity(const ContactOf<Real> &contact)
+  {
+    return rolling_velocity(contact);
+  }
   /// c of the dashpot that caps the torque [force length time]
   template <class Real>
   EEPA_FUNCTION static Real dashpot(const Real &effective_radius, const Real &root_mass_stiffness)
@@ -60,7 +65,7 @@ struct RollingConstant {
   {
     using std::sqrt;
     const Real &radius = contact.effective_radius;
-    const Vector3<Real> rolling = rolling_velocity(contact);
+    const Vector3<Real> rolling = velocity(contact);
     const Real limit = bound(c, radius, hysteretic);
     const Real cap = dashpot(radius, root_mass_stiffness);
     const Real rate_squared = squared_length(rolling);
@@ -83,6 +88,11 @@ struct RollingSds {
   static constexpr RollingModel model = RollingModel::sds;
   static constexpr bool has_spring = true;
 
+  /// With the normal of the middle of the step, as the surface velocity: see seen_at_mid_step().
+  template <class Real> EEPA_FUNCTION static Vector3<Real> velocity(const ContactOf<Real> &contact)
+  {
+    return rolling_velocity(contact) + dot(contact.angular_velocity, contact.normal) * contact.turn;
+  }
   /// B of the pseudo-force, gr of this contact [mass/time]
   template <class Real>
   EEPA_FUNCTION static Real dashpot(const Coefficients &c, const ScaleOf<Real> &scale)
@@ -102,11 +112,11 @@ struct RollingSds {
                                             const Real &, double time_step, Vector3<Real> &spring)
   {
     const Real &radius = contact.effective_radius;
-    const Vector3<Real> velocity = radius * rolling_velocity(contact);
-    spring = rotate_into_plane(spring, contact.normal) + Real(time_step) * velocity;
+    const Vector3<Real> rolled = radius * velocity(contact);
+    spring = wind<Real>(spring, rolled, time_step, contact);
     const SliderForce<Real> roll =
         slider_force<Real>(scale.stiffness() * c.kr, scale.inverse_size * c.inverse_kr,
-                           dashpot(c, scale), bound(c, hysteretic), velocity, spring);
+                           dashpot(c, scale), bound(c, hysteretic), rolled, spring);
     return radius * roll.force;
   }
 };

@@ -17,7 +17,8 @@ constexpr double time_step_overlap_fraction = 0.05;
 ///
 /// Springs that turn a particle too are worth more than those that only push it: for a solid
 /// sphere the tangential one counts 7/2 fold, so that the default of 2/7 k1 is worth k1, and the
-/// rolling one 5/2 fold.
+/// rolling one 5/2 fold. The spring of twisting turns it by 5/4 delta/R of the tangential one, which
+/// is never the largest while the overlap is less than a radius.
 /// \param c  coefficients of its pair of types
 /// \param size  d, as in Contact [length]
 EEPA_FUNCTION double largest_stiffness(const Coefficients &c, double size)

@@ -31,10 +31,11 @@ template <class Real> EEPA_FUNCTION Real squared_length(const Vector3<Real> &a)
 /// gains nor loses energy when its contact rolls around (Luding 2008, section 2.3).
 /// \param spring  vector in the old tangent plane, any dimension
 /// \param normal  present unit normal
+/// \param length  what the length is multiplied by besides
 /// \return the rotated vector; zero where `spring` is parallel to `normal`
 template <class Real>
 EEPA_FUNCTION Vector3<Real> rotate_into_plane(const Vector3<Real> &spring,
-                                              const Vector3<Real> &normal)
+                                              const Vector3<Real> &normal, const Real &length)
 {
   using std::sqrt;
   // below the smallest normal number a direction is meaningless, and so is the spring
@@ -55,12 +56,12 @@ EEPA_FUNCTION Vector3<Real> rotate_into_plane(const Vector3<Real> &spring,
     const Real restored = sqrt(length_squared / select(turned, left, one));
     factor = select(steep, select(turned, restored, none), factor);
   }
-  return select(there, factor, none) * projected;
+  return (select(there, factor, none) * length) * projected;
 }
-/// Likewise, for any expression that is a Vec3.
+/// Likewise, for any expression that is a Vec3, the length kept.
 EEPA_FUNCTION Vec3 rotate_into_plane(const Vec3 &spring, const Vec3 &normal)
 {
-  return rotate_into_plane<double>(spring, normal);
+  return rotate_into_plane<double>(spring, normal, 1.0);
 }
 
 }    // namespace eepa

@@ -31,14 +31,15 @@ int main(int argc, char **argv)
   p.kt_given = true;
   const eepa::Coefficients c = eepa::resolve(p, settings);
 
-  eepa::with_law(settings, p.rolling, [&](auto law) {
+  eepa::with_law(settings, p, [&](auto law) {
     using ContactLaw = decltype(law);
     eepa::Contact contact;
     contact.normal = eepa::Vec3::UnitX();
     contact.size = 1.0;
     contact.effective_mass = 1.0;
     contact.effective_radius = 0.25;
-    contact.velocity = contact.spin = contact.angular_velocity = eepa::Vec3::Zero();
+    contact.velocity = contact.spin = contact.angular_velocity = contact.turn = eepa::Vec3::Zero();
+    contact.twist = 0.0;
     eepa::History history;
     while (std::scanf("%lf", &contact.overlap) == 1) {
       const auto response = ContactLaw::evaluate(c, false, contact, 0.0, history);

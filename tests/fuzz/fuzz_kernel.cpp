@@ -71,7 +71,7 @@ bool finite(const Vec3 &v)
 template <class ContactLaw>
 void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
 {
-  constexpr bool springs = ContactLaw::Rolling::has_spring;
+  using Layout = typename ContactLaw::Layout;
   constexpr bool has_rolling = ContactLaw::has_rolling;
   const Coefficients c = resolve(p, settings);
 
@@ -96,7 +96,7 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
   const double speed = smaller / time_step * bytes.decades(-8, -1);
   const double reach = smaller * bytes.decades(-6, 0);
 
-  std::array<double, SIZE_WITH_ROLLING> stored{};
+  std::array<double, Layout::size> stored{};
   double overlap = 0.0;
   bool first = true;
   for (int step = 0; step < 200 && !bytes.empty(); ++step) {
@@ -106,17 +106,20 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     contact.velocity = bytes.vector(speed);
     contact.spin = bytes.vector(speed);
     contact.angular_velocity = bytes.vector(speed / smaller);
+    contact.turn = bytes.vector(0.1);
+    contact.turn -= contact.turn.dot(contact.normal) * contact.normal;
+    contact.twist = 0.1 * bytes.vector(1.0)[0];
     if (bytes.next() % 8 != 0) overlap = reach * bytes.unit();    // else: at rest
     contact.overlap = overlap;
     if (!(overlap > 0.0)) {
-      const History last = load_history<springs>(stored.data());
+      const History last = load_history<Layout>(stored.data());
       const Dissipation lost = dissipation_of_opening<ContactLaw>(c, contact, time_step, last);
       REQUIRE(std::isfinite(lost.total()), lost.total(), 0);
       stored.fill(0.0);
       first = true;
       continue;
     }
-    const History before = load_history<springs>(stored.data());
+    const History before = load_history<Layout>(stored.data());
     History history = before;
     const Response r =
         ContactLaw::evaluate(c, settings.limit_damping, contact, time_step, history);
@@ -151,9 +154,11 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     swapped.normal = -contact.normal;
     swapped.velocity = -contact.velocity;
     swapped.angular_velocity = -contact.angular_velocity;
-    std::array<double, SIZE_WITH_ROLLING> turned;
+    swapped.turn = -contact.turn;
+    swapped.twist = -contact.twist;
+    std::array<double, Layout::size> turned;
     std::transform(stored.begin(), stored.end(), turned.begin(), [](double x) { return -x; });
-    History other = load_history<springs>(turned.data());
+    History other = load_history<Layout>(turned.data());
     const Response o = ContactLaw::evaluate(c, settings.limit_damping, swapped, time_step, other);
     REQUIRE(o.normal_force == r.normal_force, o.normal_force, r.normal_force);
     REQUIRE(o.tangential_force == -r.tangential_force, o.tangential_force.norm(),
@@ -162,11 +167,20 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     if constexpr (has_rolling)
       REQUIRE(o.rolling_torque == -r.rolling_torque, o.rolling_torque.norm(),
               r.rolling_torque.norm());
+    if constexpr (ContactLaw::has_twisting) {
+      const double limit = 2.0 / 3.0 * r.friction_bound *
+          std::sqrt(contact.effective_radius * overlap);
+      REQUIRE(std::fabs(r.twisting_torque) <= limit * (1 + 1e-12) + 1e-150, r.twisting_torque,
+              limit);
+      REQUIRE(o.twisting_torque == r.twisting_torque, o.twisting_torque, r.twisting_torque);
+    }
     REQUIRE(other.max_overlap == history.max_overlap, other.max_overlap, history.max_overlap);
     REQUIRE(other.tangential_spring == -history.tangential_spring, other.tangential_spring.norm(),
             history.tangential_spring.norm());
     REQUIRE(other.rolling_spring == -history.rolling_spring, other.rolling_spring.norm(),
             history.rolling_spring.norm());
+    REQUIRE(other.twisting_spring == history.twisting_spring, other.twisting_spring,
+            history.twisting_spring);
 
     // A slider that jumps by more than its bound's worth in one step is booked by a trapezoid
     // that is negative by up to k displacement^2 / 8.
@@ -195,7 +209,7 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     REQUIRE(lost.sliding >= -round_t - kt * moved * moved, lost.sliding, round_t);
     REQUIRE(lost.rolling >= -round_r - kr * rolled * rolled, lost.rolling, round_r);
 
-    store_history<springs>(history, stored.data());
+    store_history<Layout>(history, stored.data());
     first = false;
   }
 }
@@ -238,10 +252,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     p.rolling_viscous = bytes.zero_or_decades(-6, 4);
   }
 
+  if (bytes.next() % 2 == 0) p.twisting = TwistingModel::marshall;
+
   const Findings found = validate(s);
   REQUIRE(found.errors.empty(), found.errors.size(), 0);
   const Findings findings = validate(p, s);
   REQUIRE(findings.errors.empty(), findings.errors.size(), 0);
-  with_law(s, p.rolling, [&](auto law) { live<std::decay_t<decltype(law)>>(bytes, p, s); });
+  with_law(s, p, [&](auto law) { live<std::decay_t<decltype(law)>>(bytes, p, s); });
   return 0;
 }

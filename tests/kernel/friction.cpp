@@ -142,10 +142,10 @@ TEST(Friction, SlidingForceLiesOnTheBoundAndTheNextStepStartsThere)
     ASSERT_NEAR(out.tangential_force.norm(), out.friction_bound, 1e-14 * out.friction_bound);
     // along the trial force
     const Coefficients c = resolve(m.p, m.law);
-    const Contact contact = b.contact();
+    const Contact contact = b.contact(1e-6);
     const double kt = contact_scale(c, contact.size).stiffness() * c.kt;
     const Vec3 v = tangential_velocity(contact, contact.velocity.dot(contact.normal));
-    const Vec3 trial_spring = rotate_into_plane(fresh.tangential_spring, b.u) + 1e-6 * v;
+    const Vec3 trial_spring = wind<double>(fresh.tangential_spring, v, 1e-6, contact);
     const Vec3 dashpot = out.tangential_force + kt * history.tangential_spring;    // -B_t v
     History again = history;
     const Outcome next = evaluate(m, b, 0.0, again);
@@ -154,10 +154,11 @@ TEST(Friction, SlidingForceLiesOnTheBoundAndTheNextStepStartsThere)
       ASSERT_EQ(next.tangential_force.norm(), 0.0);
       continue;
     }
-    ASSERT_NEAR(next.tangential_force.norm(), out.friction_bound, 1e-12 * out.friction_bound);
+    // but for the dashpot of a call without time, which sees the normal of now
+    ASSERT_NEAR(next.tangential_force.norm(), out.friction_bound, 1e-5 * out.friction_bound);
     if (history.tangential_spring.norm() == 0.0) continue;    // the dashpot alone slides
     springs++;
-    ASSERT_LT(deviation(next.tangential_force, out.tangential_force), 1e-12);
+    ASSERT_LT(deviation(next.tangential_force, out.tangential_force), 1e-5);
     const Vec3 trial = -kt * trial_spring + dashpot;
     ASSERT_LT((trial.normalized() - out.tangential_force.normalized()).norm(), 1e-9);
   }

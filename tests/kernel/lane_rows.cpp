@@ -160,38 +160,44 @@ TEST(LaneRows, AddSubtractAndStoreTheRowOfTheirLane)
 }
 
 // as LAMMPS hands it over when i and j change places: every sign turned
-template <bool WithRolling> void expect_history_of_each_lane(double sign)
+template <class Layout> void expect_history_of_each_lane(double sign)
 {
   Memory memory;
   for (double &value : memory.values) value *= sign;
-  const HistoryOf<Lanes> loaded = load_history<WithRolling>(memory.at);
+  const HistoryOf<Lanes> loaded = load_history<Layout>(memory.at);
   for (int lane = 0; lane < width; lane++) {
     EXPECT_EQ(loaded.max_overlap[lane], std::fabs(memory(lane, MAX_OVERLAP)));
     for (int k = 0; k < 3; k++) {
       EXPECT_EQ(loaded.tangential_spring[k][lane], memory(lane, TANGENTIAL_SPRING + k));
       EXPECT_EQ(loaded.rolling_spring[k][lane],
-                WithRolling ? memory(lane, ROLLING_SPRING + k) : 0.0);
+                Layout::rolling ? memory(lane, ROLLING_SPRING + k) : 0.0);
     }
+    // a twist does not change its sign with i and j
+    EXPECT_EQ(loaded.twisting_spring[lane],
+              Layout::twisting ? sign * memory(lane, Layout::twisting_spring) : 0.0);
   }
 }
 
 TEST(LaneHistory, IsReadWithTheMagnitudeOfTheOverlap)
 {
   for (const double sign : {1.0, -1.0}) {
-    expect_history_of_each_lane<false>(sign);
-    expect_history_of_each_lane<true>(sign);
+    expect_history_of_each_lane<HistoryLayout<false, false>>(sign);
+    expect_history_of_each_lane<HistoryLayout<false, true>>(sign);
+    expect_history_of_each_lane<HistoryLayout<true, false>>(sign);
+    expect_history_of_each_lane<HistoryLayout<true, true>>(sign);
   }
 }
 
-template <bool WithRolling> void expect_stored_history_of_each_lane()
+template <class Layout> void expect_stored_history_of_each_lane()
 {
   HistoryOf<Lanes> history;
   history.max_overlap = numbers(100.0);
   history.tangential_spring = Vector3<Lanes>(numbers(200.0), numbers(300.0), numbers(400.0));
   history.rolling_spring = Vector3<Lanes>(numbers(500.0), numbers(600.0), numbers(700.0));
+  history.twisting_spring = numbers(Layout::rolling ? 800.0 : 500.0);
   Memory memory;
-  store_history<WithRolling>(history, memory.at);
-  const int size = WithRolling ? SIZE_WITH_ROLLING : SIZE_WITHOUT_ROLLING;
+  store_history<Layout>(history, memory.at);
+  const int size = Layout::size;
   for (int lane = 0; lane < width; lane++)
     for (int k = 0; k < size; k++)
       EXPECT_EQ(memory(lane, k), 100.0 * (k + 1) + lane) << lane << " " << k;
@@ -200,8 +206,10 @@ template <bool WithRolling> void expect_stored_history_of_each_lane()
 
 TEST(LaneHistory, IsStoredInTheRowOfItsLaneAlone)
 {
-  expect_stored_history_of_each_lane<false>();
-  expect_stored_history_of_each_lane<true>();
+  expect_stored_history_of_each_lane<HistoryLayout<false, false>>();
+  expect_stored_history_of_each_lane<HistoryLayout<false, true>>();
+  expect_stored_history_of_each_lane<HistoryLayout<true, false>>();
+  expect_stored_history_of_each_lane<HistoryLayout<true, true>>();
 }
 
 }    // namespace lane_rows_test

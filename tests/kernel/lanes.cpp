@@ -23,6 +23,7 @@ struct Case {
   LawSettings settings;
   RollingModel rolling;
   Damping damping;
+  TwistingModel twisting = TwistingModel::none;
 };
 
 /// Numbers from a fixed seed, and contacts made of them.
@@ -51,6 +52,8 @@ class Generator {
     c.velocity = vector(1.0);
     c.spin = vector(1.0);
     c.angular_velocity = vector(1.0);
+    c.turn = vector(1e-3);
+    c.twist = between(-1e-3, 1e-3);
     return c;
   }
 
@@ -96,6 +99,8 @@ ContactOf<Lanes> side_by_side(const std::vector<Contact> &contacts)
   c.velocity = vector_member(contacts, &Contact::velocity);
   c.spin = vector_member(contacts, &Contact::spin);
   c.angular_velocity = vector_member(contacts, &Contact::angular_velocity);
+  c.turn = vector_member(contacts, &Contact::turn);
+  c.twist = member(contacts, &Contact::twist);
   return c;
 }
 
@@ -115,7 +120,7 @@ class SideBySide : public testing::TestWithParam<Case> {};
 TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
 {
   const Case &given = GetParam();
-  with_law(given.settings, given.rolling, [&](auto law) {
+  with_law(given.settings, given.rolling, given.twisting, [&](auto law) {
     using ContactLaw = decltype(law);
     Generator generator;
     int branches[4] = {0, 0, 0, 0}, sliding = 0, sticking = 0;
@@ -133,6 +138,7 @@ TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
       p.viscous_normal = generator.between(0.0, 10.0);
       p.viscous_tangential = generator.between(0.0, 10.0);
       p.rolling = given.rolling;
+      p.twisting = given.twisting;
       p.mu_r = generator.between(0.0, 0.2);
       p.kr = generator.between(0.0, 1e3);
       p.rolling_viscous = generator.between(0.0, 1.0);
@@ -144,22 +150,23 @@ TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
         history.max_overlap = generator.between(0.0, 0.06);
         history.tangential_spring = generator.vector(0.01);
         history.rolling_spring = generator.vector(0.01);
+        history.twisting_spring = generator.between(-0.01, 0.01);
       }
       // through a driver's flat arrays, where LAMMPS may have turned every sign
-      std::vector<double> flat(width * SIZE_WITH_ROLLING);
+      std::vector<double> flat(width * ContactLaw::history_size);
       LanePointers<double> at;
       for (int l = 0; l < width; l++) {
         at[l] = flat.data() + l * ContactLaw::history_size;
-        store_history<ContactLaw::Rolling::has_spring>(one[l], at[l]);
+        store_history<typename ContactLaw::Layout>(one[l], at[l]);
       }
       for (int step = 0; step < 10; step++) {
         std::vector<Contact> contacts(width);
         for (auto &contact : contacts) contact = generator.contact();
         const ContactOf<Lanes> together = side_by_side(contacts);
-        HistoryOf<Lanes> history = load_history<ContactLaw::Rolling::has_spring>(at);
+        HistoryOf<Lanes> history = load_history<typename ContactLaw::Layout>(at);
         const bool limit = round % 2;
         const auto response = ContactLaw::evaluate(c, limit, together, 1e-3, history);
-        store_history<ContactLaw::Rolling::has_spring>(history, at);
+        store_history<typename ContactLaw::Layout>(history, at);
         const Vector3<Lanes> force = ContactLaw::force_on_i(response, together);
         const Vector3<Lanes> moment = ContactLaw::tangential_moment(response, together);
         for (int l = 0; l < width; l++) {
@@ -172,16 +179,23 @@ TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
           expect_bits(moment, l, ContactLaw::tangential_moment(alone, contacts[l]), "moment");
           if constexpr (ContactLaw::has_rolling)
             expect_bits(response.rolling_torque, l, alone.rolling_torque, "rolling torque");
+          if constexpr (ContactLaw::has_twisting) {
+            expect_bits(response.twisting_torque[l], alone.twisting_torque, "twisting torque");
+            expect_bits(ContactLaw::couple_on_i(response, together), l,
+                        ContactLaw::couple_on_i(alone, contacts[l]), "couple");
+          }
           EXPECT_EQ(response.branch[l], static_cast<double>(alone.branch));
           EXPECT_EQ(response.sliding[l], alone.sliding);
           const auto stored =
-              load_history<ContactLaw::Rolling::has_spring>(static_cast<const double *>(at[l]));
+              load_history<typename ContactLaw::Layout>(static_cast<const double *>(at[l]));
           expect_bits(stored.max_overlap, one[l].max_overlap, "delta_max");
           for (int k = 0; k < 3; k++) {
             expect_bits(stored.tangential_spring[k], one[l].tangential_spring[k], "spring");
             if (ContactLaw::Rolling::has_spring)
               expect_bits(stored.rolling_spring[k], one[l].rolling_spring[k], "rolling spring");
           }
+          if (ContactLaw::has_twisting)
+            expect_bits(stored.twisting_spring, one[l].twisting_spring, "twisting spring");
           branches[static_cast<int>(alone.branch)]++;
           (alone.sliding ? sliding : sticking)++;
         }
@@ -218,6 +232,12 @@ const Case cases[] = {
      Damping::viscous},
     {"exponent_scaled_sds", settings(Law::linear, 2.0, true), RollingModel::sds,
      Damping::restitution},
+    {"linear_scaled_twisting", settings(Law::linear, 1.0, true), RollingModel::none,
+     Damping::restitution, TwistingModel::marshall},
+    {"plateau_sds_twisting", settings(Law::plateau, 1.0, false), RollingModel::sds,
+     Damping::viscous, TwistingModel::marshall},
+    {"exponent_constant_twisting", settings(Law::linear, 1.5, false), RollingModel::constant,
+     Damping::restitution, TwistingModel::marshall},
 };
 INSTANTIATE_TEST_SUITE_P(Laws, SideBySide, testing::ValuesIn(cases), [](const auto &info) {
   return std::string(info.param.name);

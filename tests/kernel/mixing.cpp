@@ -42,6 +42,7 @@ void expect_same(const Parameters &a, const Parameters &b)
   EXPECT_DOUBLE_EQ(a.viscous_normal, b.viscous_normal);
   EXPECT_DOUBLE_EQ(a.viscous_tangential, b.viscous_tangential);
   EXPECT_EQ(a.rolling, b.rolling);
+  EXPECT_EQ(a.twisting, b.twisting);
   EXPECT_DOUBLE_EQ(a.mu_r, b.mu_r);
   EXPECT_DOUBLE_EQ(a.kr, b.kr);
   EXPECT_DOUBLE_EQ(a.rolling_viscous, b.rolling_viscous);
@@ -107,6 +108,17 @@ TEST(Mixing, OneGivenTangentialStiffnessMeetsTheDefaultOfTheOther)
   EXPECT_TRUE(m.kt_given);
   EXPECT_DOUBLE_EQ(m.kt, 300.0);
   EXPECT_DOUBLE_EQ(mixture(b, a).kt, 300.0);
+}
+
+TEST(Mixing, TwistingNeedsBothTypes)
+{
+  Parameters a = full(), b = full();
+  EXPECT_EQ(mixture(a, b).twisting, TwistingModel::none);
+  a.twisting = TwistingModel::marshall;
+  EXPECT_EQ(mixture(a, b).twisting, TwistingModel::none);
+  EXPECT_EQ(mixture(b, a).twisting, TwistingModel::none);
+  b.twisting = TwistingModel::marshall;
+  EXPECT_EQ(mixture(a, b).twisting, TwistingModel::marshall);
 }
 
 TEST(Mixing, IsSymmetric)

@@ -148,18 +148,21 @@ TEST(Properties, DispatchPicksThePolicies)
 {
   for (Law law : {Law::plateau, Law::linear}) {
     for (double n : {1.0, 1.5}) {
-      for (RollingModel model : {RollingModel::none, RollingModel::constant, RollingModel::sds}) {
-        LawSettings settings;
-        settings.law = law;
-        settings.exponent = law == Law::plateau ? 1.0 : n;
-        const bool right = with_law(settings, model, [&](auto picked) {
-          using Picked = decltype(picked);
-          return Picked::Normal::law == law && Picked::Rolling::model == model &&
-              Picked::Normal::Exponent::is_unit == (settings.exponent == 1.0) &&
-              Picked::history_size == (model == RollingModel::sds ? 7 : 4);
-        });
-        EXPECT_TRUE(right);
-      }
+      for (RollingModel model : {RollingModel::none, RollingModel::constant, RollingModel::sds})
+        for (TwistingModel twisting : {TwistingModel::none, TwistingModel::marshall}) {
+          LawSettings settings;
+          settings.law = law;
+          settings.exponent = law == Law::plateau ? 1.0 : n;
+          const bool right = with_law(settings, model, twisting, [&](auto picked) {
+            using Picked = decltype(picked);
+            return Picked::Normal::law == law && Picked::Rolling::model == model &&
+                Picked::Normal::Exponent::is_unit == (settings.exponent == 1.0) &&
+                Picked::Twisting::model == twisting &&
+                Picked::history_size ==
+                (model == RollingModel::sds ? 7 : 4) + (twisting == TwistingModel::none ? 0 : 1);
+          });
+          EXPECT_TRUE(right);
+        }
     }
   }
 }

@@ -138,7 +138,7 @@ TEST(Rolling, SdsSpringAndDashpot)
   Bodies b;
   b.u = Vec3::UnitZ();
   b.w_i = Vec3(0.0, 20.0, 50.0);
-  b.w_j = Vec3(0.0, 5.0, 0.0);
+  b.w_j = Vec3(0.0, 5.0, -50.0);
   const double R = effective_radius(b.R_i, b.R_j), dt = 1e-6;
   const Vec3 v = R * Vec3(0.0, 15.0, 0.0);    // the twist along z is left out
   History history;

@@ -61,7 +61,8 @@ struct Bodies {
 
   bool wall() const { return std::isinf(R_j); }
   double size() const { return wall() ? 2.0 * R_i : R_i + R_j; }
-  Contact contact() const
+  /// \param time_step  that led here
+  Contact contact(double time_step = 0.0) const
   {
     Contact c;
     c.normal = u;
@@ -73,6 +74,11 @@ struct Bodies {
     c.spin = lever_arm(R_i, overlap) * w_i;
     if (!wall()) c.spin += lever_arm(R_j, overlap) * w_j;
     c.angular_velocity = w_i - w_j;
+    if (wall())
+      c.turn.setZero();
+    else
+      c.turn = turn_of_pair<double>(u, c.velocity, 1.0 / (R_i + R_j - overlap), time_step);
+    c.twist = twist_of_pair<double>(u, w_i + w_j, time_step);
     return c;
   }
   double arm_i() const { return lever_arm(R_i, overlap); }
@@ -86,31 +92,9 @@ struct Outcome : Response {
   Dissipation lost;
 };
 
-inline Outcome evaluate(const Material &m, const Bodies &b, double time_step, History &history)
-{
-  return with_law(m.law, m.p.rolling, [&](auto law) {
-    using Law = decltype(law);
-    const Coefficients c = resolve(m.p, m.law);
-    const Contact contact = b.contact();
-    const History before = history;
-    Outcome out;
-    static_cast<Response &>(out) =
-        Law::evaluate(c, m.law.limit_damping, contact, time_step, history);
-    if (!Law::has_rolling) out.rolling_torque.setZero();
-    out.force = Law::force_on_i(out, contact);
-    const Vec3 moment = Law::tangential_moment(out, contact);
-    out.torque_i = -b.arm_i() * moment + out.rolling_torque;
-    out.torque_j = -b.arm_j() * moment - out.rolling_torque;
-    out.energy = Law::stored_energy(c, contact.size, contact.overlap, history);
-    if (Law::has_rolling)
-      out.lost = dissipation_of_step<Law>(c, contact, out, time_step, before.max_overlap == 0.0,
-                                          before, history);
-    else
-      out.lost = dissipation_of_step<ContactLaw<typename Law::Normal, RollingNone>>(
-          c, contact, out, time_step, before.max_overlap == 0.0, before, history);
-    return out;
-  });
-}
+/// One step of a contact by the law of its material. In a file of its own: every law that exists is
+/// compiled there, once.
+Outcome evaluate(const Material &m, const Bodies &b, double time_step, History &history);
 
 inline Outcome evaluate(const Material &m, const Bodies &b, double time_step = 0.0)
 {
@@ -122,7 +106,7 @@ inline Outcome evaluate(const Material &m, const Bodies &b, double time_step = 0
 class NormalPath {
   template <class Function> auto with(Function &&function) const
   {
-    return with_law(m_.law, RollingModel::none, [&](auto law) {
+    return with_law(m_.law, Parameters(), [&](auto law) {
       return function(typename decltype(law)::Normal{});
     });
   }
@@ -253,6 +237,8 @@ inline Material any_material(Random &random)
     m.p.kr = k1 * std::pow(length, exponent - 1.0) * random.uniform(0.05, 1.0);
     m.p.rolling_viscous = std::sqrt(k1) * random.decades(-7.0, -4.0);
   }
+  // without another random number: those after it are as they were
+  if (std::fmod(1e3 * m.p.mu, 1.0) < 0.5) m.p.twisting = TwistingModel::marshall;
   m.law.limit_damping = random.chance(0.3);
   if (random.chance(0.5)) scale_with_diameter(m, random.decades(-4.0, -2.0));
   return m;

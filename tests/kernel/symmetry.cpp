@@ -9,10 +9,10 @@ using namespace eepa_test;
 /// The driver's view: a flat array that LAMMPS hands over with every sign turned.
 History swapped(const History &history)
 {
-  double flat[SIZE_WITH_ROLLING];
-  store_history<true>(history, flat);
+  double flat[8];
+  store_history<HistoryLayout<true, true>>(history, flat);
   for (double &value : flat) value = -value;
-  return load_history<true>(flat);
+  return load_history<HistoryLayout<true, true>>(flat);
 }
 
 Bodies exchanged(const Bodies &b)
@@ -38,20 +38,47 @@ TEST(Symmetry, HistoryIsStoredAndReadUnchanged)
   h.max_overlap = 0.3;
   h.tangential_spring = random.vector(1.0);
   h.rolling_spring = random.vector(1.0);
-  double flat[SIZE_WITH_ROLLING + 1] = {};
-  flat[SIZE_WITH_ROLLING] = flat[SIZE_WITHOUT_ROLLING] = 77.0;
-  store_history<false>(h, flat);
-  EXPECT_EQ(flat[SIZE_WITHOUT_ROLLING], 77.0);
-  History back = load_history<false>(flat);
+  h.twisting_spring = 0.7;
+  double flat[9] = {};
+  flat[4] = flat[5] = flat[7] = flat[8] = 77.0;
+  store_history<HistoryLayout<false, false>>(h, flat);
+  EXPECT_EQ(flat[4], 77.0);
+  History back = load_history<HistoryLayout<false, false>>(flat);
   EXPECT_EQ(back.max_overlap, h.max_overlap);
   EXPECT_EQ(back.tangential_spring, h.tangential_spring);
   EXPECT_EQ(back.rolling_spring, Vec3(Vec3::Zero()));
-  store_history<true>(h, flat);
-  EXPECT_EQ(flat[SIZE_WITH_ROLLING], 77.0);
-  back = load_history<true>(flat);
+  EXPECT_EQ(back.twisting_spring, 0.0);
+  store_history<HistoryLayout<false, true>>(h, flat);
+  EXPECT_EQ(flat[5], 77.0);
+  back = load_history<HistoryLayout<false, true>>(flat);
+  EXPECT_EQ(back.rolling_spring, Vec3(Vec3::Zero()));
+  EXPECT_EQ(back.twisting_spring, 0.7);
+  store_history<HistoryLayout<true, false>>(h, flat);
+  EXPECT_EQ(flat[7], 77.0);
+  store_history<HistoryLayout<true, true>>(h, flat);
+  EXPECT_EQ(flat[8], 77.0);
+  back = load_history<HistoryLayout<true, true>>(flat);
   EXPECT_EQ(back.max_overlap, h.max_overlap);
   EXPECT_EQ(back.tangential_spring, h.tangential_spring);
   EXPECT_EQ(back.rolling_spring, h.rolling_spring);
+  EXPECT_EQ(back.twisting_spring, h.twisting_spring);
+}
+
+// what a driver allocates before it knows the law's type, and what restart files count
+TEST(Symmetry, EveryLayoutHasASizeOfItsOwn)
+{
+  const RollingModel rolling[] = {RollingModel::none, RollingModel::constant, RollingModel::sds};
+  const int without[] = {4, 4, 7}, with[] = {5, 5, 8};
+  for (int k = 0; k < 3; k++) {
+    EXPECT_EQ(history_size(rolling[k], TwistingModel::none), without[k]);
+    EXPECT_EQ(history_size(rolling[k], TwistingModel::marshall), with[k]);
+    for (TwistingModel twisting : {TwistingModel::none, TwistingModel::marshall})
+      EXPECT_EQ(with_law(LawSettings(), rolling[k], twisting,
+                         [](auto law) {
+                           return decltype(law)::history_size;
+                         }),
+                history_size(rolling[k], twisting));
+  }
 }
 
 TEST(Symmetry, SwapTurnsTheSpringsAndKeepsTheOverlap)
@@ -61,8 +88,10 @@ TEST(Symmetry, SwapTurnsTheSpringsAndKeepsTheOverlap)
   h.max_overlap = 0.3;
   h.tangential_spring = random.vector(1.0);
   h.rolling_spring = random.vector(1.0);
+  h.twisting_spring = -0.2;
   const History s = swapped(h);
   EXPECT_EQ(s.max_overlap, 0.3);
+  EXPECT_EQ(s.twisting_spring, -0.2);
   EXPECT_EQ(s.tangential_spring, Vec3(-h.tangential_spring));
   EXPECT_EQ(s.rolling_spring, Vec3(-h.rolling_spring));
 }

@@ -72,7 +72,7 @@ const Mistake pair_mistakes[] = {
      "pair_style gran/eepa: ghost atoms must have velocities; use comm_modify vel yes"},
     {"pair_style gran/eepa linear\npair_coeff * * 1e4 1e4 0 0 0\nrun 0 post no\n"
      "pair_coeff * * 1e4 1e4 0 0 0 rolling sds 1 1 1\nrun 0",
-     "pair_style gran/eepa: rolling sds can not be switched on or off after a run"},
+     "pair_style gran/eepa: rolling sds and twisting can not be switched on or off after a run"},
     {"pair_style gran/eepa linear\npair_coeff * * 1e4 1e4 0 0 0\ngroup a id 1\ngroup b id 2\n"
      "fix a a freeze\nfix b b freeze\nrun 0",
      "pair_style gran/eepa: 2 fix freeze commands are active, one is allowed|More than one fix "

@@ -178,8 +178,8 @@ TEST_F(TwoSpheres, SingleShowsTheForcesOfTheRun)
 TEST_F(TwoSpheres, SingleIsTheOppositeFromTheOtherSide)
 {
   open("linear", 0.01);
-  simulation(
-      "fix integrate all nve/sphere\npair_coeff 1 1 1e4 4e4 5e3 0 0.5 rolling sds 1e3 1 0.1");
+  simulation("fix integrate all nve/sphere\npair_coeff 1 1 1e4 4e4 5e3 0 0.5 rolling sds 1e3 1 0.1 "
+             "twisting marshall");
   simulation.set_velocity(2, Vec3(0.1, 0.5, -0.2), Vec3(1, 2, 3));
   simulation.run(50);
   auto *pair = simulation.lammps()->force->pair;
@@ -189,13 +189,15 @@ TEST_F(TwoSpheres, SingleIsTheOppositeFromTheOtherSide)
   pair->single(0, 1, 1, 1, offset.squaredNorm(), 1.0, 1.0, force);
   const std::vector<double> one(pair->svector, pair->svector + pair->single_extra);
   const double energy = pair->single(1, 0, 1, 1, offset.squaredNorm(), 1.0, 1.0, force);
-  EXPECT_NEAR(energy, one[11] + one[12] + one[13], 1e-12);
+  EXPECT_NEAR(energy, one[11] + one[12] + one[13] + one[18], 1e-12);
   for (int k = 0; k < pair->single_extra; k++) {
-    const bool vector = (k >= 5 && k <= 7) || k >= 14;
+    const bool vector = (k >= 5 && k <= 7) || (k >= 14 && k <= 16);
     EXPECT_NEAR(pair->svector[k], vector ? -one[k] : one[k], 1e-12 * std::fabs(one[k])) << k;
   }
   EXPECT_GT(one[12], 0.0);
   EXPECT_GT(one[13], 0.0);
+  EXPECT_NE(one[17], 0.0);    // a twist is the same from both sides
+  EXPECT_GT(one[18], 0.0);
 }
 
 // A second set-up call changes no force, and the history that the compute sees stays to the bit.

@@ -24,16 +24,18 @@ enum {
   TANGENTIAL_DASHPOT,
   SLIDING,
   ROLLING,
-  WALL_WORK
+  WALL_WORK,
+  ELASTIC_TWISTING,
+  TWISTING
 };
 
 double dissipated(const std::vector<double> &e)
 {
-  return std::accumulate(e.begin() + HYSTERESIS, e.begin() + WALL_WORK, 0.0);
+  return std::accumulate(e.begin() + HYSTERESIS, e.begin() + WALL_WORK, e[TWISTING]);
 }
 double elastic(const std::vector<double> &e)
 {
-  return std::accumulate(e.begin(), e.begin() + HYSTERESIS, 0.0);
+  return std::accumulate(e.begin(), e.begin() + HYSTERESIS, e[ELASTIC_TWISTING]);
 }
 
 /* ---------------------------------------------------------------------- a packing */
@@ -129,6 +131,9 @@ class CompressedPacking : public testing::TestWithParam<Balance> {
       EXPECT_LT(course->decrease, 1e-9);
       for (int k = HYSTERESIS; k <= ROLLING; k++)
         EXPECT_GT(course->end[k], 1e-4 * course->put_in) << k;    // each channel takes part
+      if (std::string(law.coefficients).find("twisting") != std::string::npos) {
+        EXPECT_GT(course->end[TWISTING], 1e-5 * course->put_in);
+      }
     }
     const double percent = 100.0 / half.put_in;
     std::printf("%s, %d particles: drift %.3f%% and %.3f%% of %.4g put in, at the end %.3f%% and "
@@ -162,6 +167,8 @@ const Balance balances[] = {
     {"linear_sds", "linear", "1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling sds 2e3 1 0.1", 2e4, 16},
     {"plateau_constant", "plateau", "1e4 2e4 5e3 0 0.3 restitution 0.7 rolling constant 0.05", 2e4,
      16},
+    {"linear_twisting", "linear", 
+     "1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling constant 0.05 twisting marshall", 2e4, 16},
     // its time step's stiffness is the tangent at an overlap of 5% of d
     {"exponent", "linear exponent 1.5",
      "1e5 2e5 5e4 0 0.3 kt 3e3 restitution 0.7 rolling sds 2e3 1 0.1", 6.7e4, 13},
@@ -284,6 +291,8 @@ const Impact impacts[] = {
     {"rolling_constant", "linear", "1e4 2e4 0 0 0.3 rolling constant 0.1", Vec3(2, 2, 0), -0.5,
      5e-4},
     {"rolling_sds", "linear", "1e4 2e4 0 0 0.3 rolling sds 2e3 2 0.1", Vec3(2, 2, 0), -0.5, 5e-4},
+    {"twisting", "linear", "1e4 2e4 0 0 0.3 viscous 0 2 twisting marshall", Vec3(2, 2, 0), -0.5,
+     5e-4},
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, LedgerImpact, testing::ValuesIn(impacts), [](const auto &info) {
   return std::string(info.param.name);
@@ -408,10 +417,23 @@ TEST_F(HeldSphere, RollingTakesMuRNTimesTheAngle)
   for (const double value : e) EXPECT_EQ(value, 0.0);
 
   const double kr = 2e3, f = 0.2 * force;
-  e = drag("1e4 1e4 0 0 0 rolling sds 2e3 0 0.2", "", omega);
+  // without twist, with which the spring would turn
+  e = drag("1e4 1e4 0 0 0 rolling sds 2e3 0 0.2", "", Vec3(3, -4, 0));
   EXPECT_NEAR(e[ELASTIC_ROLLING], 0.5 * f * f / kr, 1e-10);
   EXPECT_NEAR(e[ROLLING], f * (0.5 * 5.0 * time - f / kr), 1e-9);
   EXPECT_EQ(e[HYSTERESIS] + e[NORMAL_DASHPOT] + e[TANGENTIAL_DASHPOT] + e[SLIDING], 0.0);
+}
+
+// 2/3 mu N a over the angle; the spring k_t a^2/2 holds that torque and the rest of the way.
+TEST_F(HeldSphere, TwistingTakesTwoThirdsMuNATimesTheAngle)
+{
+  const Vec3 omega(3, -4, -6);    // rolling is free
+  const double a = std::sqrt(0.5 * 0.01), torque = 2.0 / 3.0 * 0.3 * force * a,
+               stiffness = 0.5 * 4e3 * a * a;
+  const auto e = drag("1e4 1e4 0 0 0.3 kt 4e3 twisting marshall", "shear y -1.47", omega);
+  EXPECT_NEAR(e[ELASTIC_TWISTING], 0.5 * torque * torque / stiffness, 1e-10);
+  EXPECT_NEAR(e[TWISTING], torque * (6.0 * time - torque / stiffness), 1e-9);
+  EXPECT_EQ(e[ROLLING], 0.0);
 }
 
 /* ---------------------------------------------------------------------- plateau with f0 */
@@ -492,7 +514,7 @@ void open_walled(Simulation &simulation, const std::string &law, bool walls,
 
 constexpr const char *ledger_laws[] = {
     "linear/1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling sds 2e3 1 0.1",
-    "plateau/1e4 2e4 5e3 -1 0.3 viscous 3 2 rolling constant 0.05"};
+    "plateau/1e4 2e4 5e3 -1 0.3 viscous 3 2 rolling constant 0.05 twisting marshall"};
 
 class ParallelLedger : public testing::TestWithParam<const char *> {};
 

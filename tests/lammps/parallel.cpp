@@ -51,7 +51,8 @@ constexpr const char *plateau =
     "pair_coeff * * 1e4 2e4 5e3 -1 0.5 viscous 1 1 rolling constant 0.1";
 constexpr const char *rolling =
     "pair_style gran/eepa linear exponent 1.5\n"
-    "pair_coeff * * 1e5 2e5 5e4 -1 0.5 kt 3e3 restitution 0.8 rolling sds 1e3 1 0.1";
+    "pair_coeff * * 1e5 2e5 5e4 -1 0.5 kt 3e3 restitution 0.8 rolling sds 1e3 1 0.1 "
+    "twisting marshall";
 
 struct Grid {
   const char *name, *pair, *newton;

@@ -78,7 +78,10 @@ INSTANTIATE_TEST_SUITE_P(
                     "pair_coeff 1 2 1e4 3e4 5e3 -1 0.3 viscous 2 1\n"
                     "pair_coeff 2 2 1e4 4e4 5e3 -1 0.3 viscous 3 1",
                     "linear exponent 1.5\n"
-                    "pair_coeff * * 1e5 2e5 5e4 -1 0.3 kt 3e3 rolling sds 1e3 1 0.1"));
+                    "pair_coeff * * 1e5 2e5 5e4 -1 0.3 kt 3e3 rolling sds 1e3 1 0.1",
+                    "linear\npair_coeff 1 1 1e4 2e4 5e3 -1 0.3 twisting marshall\n"
+                    "pair_coeff 1 2 1e4 2e4 5e3 -1 0.3\n"
+                    "pair_coeff 2 2 1e4 2e4 5e3 -1 0.3 twisting marshall"));
 
 // A restart of two spheres in the middle of unloading: force and delta_max to the bit.
 TEST(Restart, KeepsTheHistoryToTheBit)
@@ -350,7 +353,8 @@ INSTANTIATE_TEST_SUITE_P(Motions, WallRestart,
                                          "wall zplane 0 NULL velocity 0.3 0 0.2",
                                          "wall zplane 0 NULL wiggle z 0.01 0.03",
                                          "wall zplane 0 NULL shear x 1",
-                                         "rolling sds 1e3 1 0.1 wall zplane 0 NULL"));
+                                         "rolling sds 1e3 1 0.1 wall zplane 0 NULL",
+                                         "twisting marshall wall zplane 0 NULL"));
 
 // What can not be restored is refused by name.
 class RestartMismatch : public testing::Test {
@@ -379,7 +383,23 @@ TEST_F(RestartMismatch, OfRollingInThePairStyleIsRefused)
                           "pair_coeff 1 1 1e4 4e4 5e3 -1 0.5 rolling sds 1e3 1 0.1\n" + integrate +
                           "\nrun 0",
                       "the restart file has 4 values a contact and the pair_coeffs need 7; rolling "
-                      "sds can not be switched on or off with a restart"));
+                      "sds and twisting can not be switched on or off with a restart"));
+}
+
+TEST_F(RestartMismatch, OfTwistingIsRefused)
+{
+  write("");
+  Simulation pair, wall;
+  EXPECT_TRUE(refuses(pair,
+                      "read_restart " + file.name() + "\n" + restarted_box +
+                          "pair_coeff 1 1 1e4 4e4 5e3 -1 0.5 twisting marshall\n" + integrate +
+                          "\nrun 0",
+                      "has 4 values a contact and the pair_coeffs need 5"));
+  EXPECT_TRUE(refuses(wall,
+                      "read_restart " + file.name() + "\n" + restarted_box +
+                          "fix wall all wall/gran/eepa linear coeff 1e4 4e4 5e3 -1 0.5 twisting "
+                          "marshall wall zplane 0 NULL",
+                      "the restart file has 4 values a particle and the fix needs 5"));
 }
 
 TEST_F(RestartMismatch, OfRollingSwitchedOffIsRefused)
@@ -421,8 +441,8 @@ TEST_F(RestartMismatch, OfTheFormatIsRefused)
 {
   write("");
   std::string bytes = file.text();
-  // the package's format number, 1.0, stands before the law, the exponent and scale: 1 1 1 0
-  const double settings[] = {1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0};
+  // the package's format number, 2.0, stands before the law, the exponent and scale: 1 1 1 0
+  const double settings[] = {2.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0};
   const std::string before(reinterpret_cast<const char *>(settings), sizeof(settings));
   const auto at = bytes.find(before);
   ASSERT_NE(at, std::string::npos);
@@ -431,7 +451,7 @@ TEST_F(RestartMismatch, OfTheFormatIsRefused)
   std::ofstream(file.name(), std::ios::binary) << bytes;
   Simulation restarted;
   EXPECT_TRUE(refuses(restarted, "read_restart " + file.name(),
-                      "the restart file has format 7 of gran/eepa, this version reads 1"));
+                      "the restart file has format 7 of gran/eepa, this version reads 2"));
 }
 
 // write_data keeps the coefficients, given and mixed; it has no histories, as LAMMPS's has none.

@@ -80,6 +80,7 @@ const Law laws[] = {
     {"linear_constant", "linear", "8e3 2e4 5e3 -1 0.3 restitution 0.8 rolling constant 0.01"},
     {"linear_sds", "linear limit_damping yes",
      "8e3 2e4 5e3 -1 0.3 viscous 2 1 rolling sds 1e3 1 0.1"},
+    {"linear_twisting", "linear", "8e3 2e4 5e3 -1 0.3 restitution 0.8 twisting marshall"},
     {"plateau", "plateau", "8e3 2e4 5e3 -1 0.3 restitution 0.8"},
     {"plateau_constant", "plateau", "8e3 1.6e4 5e3 -1 0.3 viscous 2 1 rolling constant 0.01"},
     {"plateau_sds", "plateau", "8e3 2e4 5e3 -1 0.3 restitution 0.8 rolling sds 1e3 1 0.1"},
@@ -88,6 +89,8 @@ const Law laws[] = {
      "4e4 8e4 2e4 -1 0.3 kt 3e3 restitution 0.8 rolling constant 0.01"},
     {"exponent_sds", "linear exponent 1.5",
      "4e4 8e4 2e4 -1 0.3 kt 3e3 viscous 2 1 rolling sds 1e3 1 0.1"},
+    {"exponent_sds_twisting", "linear exponent 1.5",
+     "4e4 8e4 2e4 -1 0.3 kt 3e3 viscous 2 1 rolling sds 1e3 1 0.1 twisting marshall"},
 };
 INSTANTIATE_TEST_SUITE_P(Laws, Scale, testing::ValuesIn(laws), [](const auto &info) {
   return std::string(info.param.name);

@@ -129,6 +129,8 @@ TEST_P(ParallelThreads, ReadAndWriteTheSameRestarts)
 
 const Law laws[] = {
     {"linear", "linear", "1e4 2e4 5e3 -1 0.5 restitution 0.8", "1e4 1e4 0 0 0.1 restitution 0.9"},
+    {"twisting", "linear", "1e4 2e4 5e3 -1 0.5 restitution 0.8 twisting marshall",
+     "1e4 1e4 0 0 0.1 restitution 0.9"},
     {"plateau", "plateau limit_damping yes", "1e4 2e4 5e3 -1 0.5 viscous 1 1 rolling constant 0.1",
      "5e3 1e4 5e3 -2 0.2 viscous 2 1 rolling constant 0.2"},
     {"exponent", "linear exponent 1.5",

@@ -171,6 +171,34 @@ def rotated(xi, u):
     return flat * (norm(xi) / length) if length > 0.0 else np.zeros(3)
 
 
+# Time levels (the page of the pair style, "Time levels"): velocities and spins are those of the
+# middle of the step, and so is the normal that takes their tangential part.
+
+def half_turn(u, v, distance, dt):
+    """By how much u has turned since the middle of the step; u dot = (v - v_n u) / r."""
+    return 0.5 * dt * tangent_part(v, u) / distance
+
+
+def at_mid_step(w, u, turn):
+    """w . u is a spin about the normal of then, u - turn: seen in the plane of now, turned with it,
+    it has a part along `turn`."""
+    return w + np.dot(w, u) * turn
+
+
+def twisted(xi, u, w_sum, dt):
+    """xi turned about u with the pair's mean spin, by the angle of a step (its arc tangent)."""
+    angle = math.atan(0.5 * dt * float(np.dot(w_sum, u)))
+    return math.cos(angle) * xi + math.sin(angle) * np.cross(u, xi)
+
+
+def wound(xi, v, u, w_sum, dt):
+    """xi of the step before, wound by v of the middle of the step: that way turns by half the
+    angle, to first order."""
+    way = dt * v
+    half = 0.25 * dt * float(np.dot(w_sum, u))
+    return twisted(rotated(xi, u), u, w_sum, dt) + way + half * np.cross(u, way)
+
+
 # Where the dashpot alone exceeds the bound the contract's letter ("reset so that the next step
 # starts on the bound") winds a spring in the direction of sliding, against the dashpot; it later
 # drives the contact. The first replay of these tables found that the kernel leaves no spring there
@@ -219,12 +247,15 @@ def step(p, state, dt, u, delta, R_i, R_j, m_i, m_j, v_i, v_j, w_i, w_j):
     if p["limit_damping"]:
         f_n = max(f_n, min(f_hys, 0.0))
 
-    # Tangential. A wall does not spin in these tables, so its infinite lever arm drops out.
+    # Tangential. A wall does not spin in these tables, so its infinite lever arm drops out; it is
+    # flat, so that its normal does not turn.
     a_i = R_i - 0.5 * delta
     a_j = 0.0 if R_j is None else R_j - 0.5 * delta
-    v_t = tangent_part(v - np.cross(a_i * w_i + a_j * w_j, u), u)
+    turn = np.zeros(3) if R_j is None else half_turn(u, v, R_i + R_j - delta, dt)
+    spin = at_mid_step(a_i * w_i + a_j * w_j, u, turn)
+    v_t = tangent_part(v - np.cross(spin, u), u)
     bound = friction_bound(q, f_hys, delta, delta_max)
-    xi = rotated(state["xi"], u) + v_t * dt
+    xi = wound(state["xi"], v_t, u, w_i + w_j, dt)
     f_t, xi, sliding = slider(q["kt"], B_t, xi, v_t, bound)
 
     # Rolling.
@@ -239,8 +270,8 @@ def step(p, state, dt, u, delta, R_i, R_j, m_i, m_j, v_i, v_j, w_i, w_j):
         if length > 0.0:
             torque = -min(limit * R_eff, c * length) * flat / length
     elif p["rolling"] == "sds":
-        v_r = R_eff * tangent_part(w, u)
-        xi_r = rotated(xi_r, u) + v_r * dt
+        v_r = R_eff * tangent_part(at_mid_step(w, u, turn), u)
+        xi_r = wound(xi_r, v_r, u, w_i + w_j, dt)
         f_r, xi_r, _ = slider(q["k_r"], q["g_r"], xi_r, v_r, limit)
         torque = R_eff * f_r
 

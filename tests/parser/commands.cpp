@@ -104,11 +104,14 @@ TEST(Parameters, HaveTheDefaultsOfTheContract)
   EXPECT_EQ(p.damping, Damping::restitution);
   EXPECT_EQ(p.restitution, 1.0);
   EXPECT_EQ(p.rolling, RollingModel::none);
+  EXPECT_EQ(p.twisting, TwistingModel::none);
 }
 
 TEST(Parameters, TakeEveryKeywordInAnyOrder)
 {
-  const Parameters p = parameters_of("1 2 3 -4 5 rolling sds 6 7 8 viscous 9 10 kt 11");
+  const Parameters p =
+      parameters_of("1 2 3 -4 5 twisting marshall rolling sds 6 7 8 viscous 9 10 kt 11");
+  EXPECT_EQ(p.twisting, TwistingModel::marshall);
   EXPECT_EQ(p.rolling, RollingModel::sds);
   EXPECT_EQ(p.kr, 6.0);
   EXPECT_EQ(p.rolling_viscous, 7.0);
@@ -123,6 +126,7 @@ TEST(Parameters, TakeEveryKeywordInAnyOrder)
   EXPECT_EQ(q.rolling, RollingModel::constant);
   EXPECT_EQ(q.mu_r, 0.001);
   EXPECT_EQ(parameters_of("1 2 3 -4 5 rolling none").rolling, RollingModel::none);
+  EXPECT_EQ(parameters_of("1 2 3 -4 5 twisting none").twisting, TwistingModel::none);
 }
 
 TEST(Parameters, StopAtTheWordThatEndsThem)
@@ -244,9 +248,13 @@ const Mistake parameter_mistakes[] = {
     {"1 2 3 -4 5 rolling sds 1 2 -3", "rolling mu_r = -3 is not allowed: it must be >= 0"},
     {"1 2 3 -4 5 kt 1 kt 2", "keyword kt is given twice"},
     {"1 2 3 -4 5 restitution 1 restitution 1", "keyword restitution is given twice"},
-    {"1 2 3 -4 5 6", "keyword '6' is unknown: it must be kt, restitution, viscous or rolling"},
+    {"1 2 3 -4 5 twisting", "missing value: twisting model"},
+    {"1 2 3 -4 5 twisting sds", "twisting model 'sds' is unknown: it must be none or marshall"},
+    {"1 2 3 -4 5 twisting none twisting none", "keyword twisting is given twice"},
+    {"1 2 3 -4 5 6",
+     "keyword '6' is unknown: it must be kt, restitution, viscous, rolling or twisting"},
     {"1 2 3 -4 5 wall",
-     "keyword 'wall' is unknown: it must be kt, restitution, viscous or rolling"},
+     "keyword 'wall' is unknown: it must be kt, restitution, viscous, rolling or twisting"},
     {"0 2 -3 -4 5",
      "k1 = 0 is not allowed: it must be > 0; k_adh = -3 is not allowed: it must be "
      ">= 0"},
@@ -277,7 +285,8 @@ TEST(RoundTrip, OfParametersThroughWordsIsExact)
 {
   for (const char *line : {"0.1 0.30000000000000004 1e-300 -3.3333333333333335 0.5",
                            "5e3 1e4 5e3 -1e-9 0.5 kt 0.1 restitution 0.7 rolling constant 0.001",
-                           "5e3 1e4 5e3 0 0.5 kt 0 viscous 0.1 0.2 rolling sds 0.1 0.2 0.3"}) {
+                           "5e3 1e4 5e3 0 0.5 kt 0 viscous 0.1 0.2 rolling sds 0.1 0.2 0.3",
+                           "5e3 1e4 5e3 0 0.5 twisting marshall"}) {
     const Parameters p = parameters_of(line);
     EXPECT_TRUE(same(p, parameters_of(to_words(p)))) << to_words(p);
     EXPECT_TRUE(same(p, unpack_parameters(pack(p)))) << to_words(p);
@@ -306,7 +315,7 @@ TEST(RoundTrip, OfAnotherFormatIsRefused)
   EXPECT_EQ(refusal([&] {
               unpack_style(numbers);
             }),
-            "the restart file has format 2 of gran/eepa, this version reads 1");
+            "the restart file has format 3 of gran/eepa, this version reads 2");
 }
 
 TEST(RequireValid, RefusesWhatOtherSettingsForbid)

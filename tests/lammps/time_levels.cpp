@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// A fine grain in the groove of two large spheres, 1/20 of their radius: it rolls on both, with
+// most of its spin along the normals, and leaves where nothing presses it into the groove. A spring
+// that is wound with the normal of another time, or that does not turn with the pair about the
+// normal, comes to pull the grain into the groove, and it stays to 90 degrees, or for ever.
+
+#include "simulation.h"
+
+#include "wall_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace eepa_test;
+using LAMMPS_NS::SurfacePoint;
+using LAMMPS_NS::WallSurfaces;
+
+namespace {
+
+constexpr double large = 1.0, small = 0.05, start = 0.2, gravity = 1.0;
+
+/// The same of rigid spheres: one degree of freedom, which rolls until mu N does not suffice and
+/// slides from there on. Angle from the top at which the normal force has come to nothing [degrees]
+double rigid_grain_leaves_at(double mu)
+{
+  const double reach = large + small, path = std::sqrt(reach * reach - large * large),
+               cosine = path / reach, arm = small * cosine;
+  const double spin = 0.4 * small * small / (arm * arm), dt = 1e-5;
+  double angle = start, speed = 0.0;
+  bool slides = false;
+  for (;;) {
+    // both normal forces together, over the mass
+    const double normal = (gravity * std::cos(angle) - speed * speed / path) / cosine;
+    if (normal <= 0.0) return angle * 180.0 / pi;
+    const double rolling = gravity * std::sin(angle) * spin / (1.0 + spin);
+    slides = slides || rolling > mu * normal;
+    speed += dt * (gravity * std::sin(angle) - (slides ? mu * normal : rolling));
+    angle += dt * speed / path;
+  }
+}
+
+double grain_leaves_at(double mu, double stiffness_over_mass, double time_step)
+{
+  const double mass = std::pow(2.0 * small, 3), k = stiffness_over_mass * mass;
+  const double path = std::sqrt(std::pow(large + small, 2) - large * large),
+               cosine = path / (large + small);
+  // at rest: what the weight presses it in by
+  const double overlap = mass * gravity * std::cos(start) / (2.0 * cosine) / k;
+  const double there = std::sqrt(std::pow(large + small - overlap, 2) - large * large);
+  Simulation simulation;
+  simulation.open_box(4.0);
+  simulation.create({{Vec3(-large, 0, 0), Vec3::Zero(), Vec3::Zero(), large},
+                     {Vec3(large, 0, 0), Vec3::Zero(), Vec3::Zero(), large},
+                     {Vec3(0, there * std::sin(start), there * std::cos(start)), Vec3::Zero(),
+                      Vec3::Zero(), small}});
+  simulation("group grain id 3\npair_style gran/eepa linear\npair_coeff * * " + exact(k) + " " +
+             exact(k) + " 0 0 " + exact(mu) +
+             "\nneighbor 0.02 bin\nfix integrate grain nve/sphere\nfix weight grain gravity " +
+             exact(gravity) + " vector 0 0 -1\ncompute c all gran/eepa/contacts\ntimestep " +
+             exact(time_step));
+  const int part = static_cast<int>(0.002 / time_step);
+  for (double time = 0.0; time < 8.0; time += part * time_step) {
+    simulation.run(part);
+    if (simulation.compute_vector("c")[0] > 1.0) continue;    // that of the two large ones
+    const Vec3 x = simulation.particle(3).x;
+    return std::atan2(x.y(), x.z()) * 180.0 / pi;
+  }
+  return 360.0;
+}
+
+TEST(Groove, GrainLeavesWhereARigidOneDoes)
+{
+  for (const double mu : {0.0, 0.3, 0.5, 1.0}) {
+    const double rigid = rigid_grain_leaves_at(mu);
+    const double soft = grain_leaves_at(mu, 3e4, 5e-4), stiff = grain_leaves_at(mu, 3e5, 2e-4);
+    std::printf("mu %.1f: rigid %.2f, k/m = 3e4 %.2f, 3e5 %.2f degrees\n", mu, rigid, soft, stiff);
+    EXPECT_NEAR(soft, rigid, 0.35);
+    EXPECT_NEAR(stiff, rigid, 0.2);
+  }
+}
+
+TEST(Groove, GrainLeavesAtTheSamePlaceWithAnyTimeStep)
+{
+  const double fine = grain_leaves_at(0.5, 3e4, 1.25e-4);
+  for (const double time_step : {1e-3, 5e-4}) {
+    // the step's end at which it is seen: 0.002 at a speed of 0.6, over a path of radius 0.32
+    EXPECT_NEAR(grain_leaves_at(0.5, 3e4, time_step), fine, 0.25) << time_step;
+  }
+}
+
+// du/dt against the normals of two places.
+TEST(WallSurfaces, NormalOfACylinderTurnsWithTheWay)
+{
+  WallSurfaces cylinder;
+  cylinder.kind = WallSurfaces::zcylinder;
+  cylinder.radius = 2.0;
+  cylinder.displacement = {0.1, -0.2, 0.0};
+  const Vec3 v(0.3, -0.7, 0.4);
+  const double h = 1e-5;
+  for (const double from_axis : {1.6, 2.4}) {    // inside and outside
+    const Vec3 x = Vec3(0.1, -0.2, 0.0) + from_axis * Vec3(0.6, 0.8, 0.5);
+    const Vec3 before = x - h * v, after = x + h * v;
+    const SurfacePoint point = cylinder.nearest(0, x.data(), 0.5);
+    const Vec3 rate = (cylinder.nearest(0, after.data(), 0.5).normal -
+                       cylinder.nearest(0, before.data(), 0.5).normal) /
+        (2.0 * h);
+    EXPECT_GT(rate.norm(), 0.1);
+    EXPECT_LT((WallSurfaces::turning(point, v) - rate).norm(), 1e-9);
+  }
+  WallSurfaces plane;
+  plane.has_lo = true;
+  const Vec3 x(1, 2, 0.4);
+  EXPECT_EQ(WallSurfaces::turning(plane.nearest(0, x.data(), 0.5), v), Vec3(Vec3::Zero()));
+}
+
+}    // namespace
