@@ -36,24 +36,39 @@ class OtherCreator {
 }    // namespace
 
 ContactHistory::ContactHistory(LAMMPS *lmp, int narg, char **arg) :
-    FixNeighHistory(lmp, narg, arg), owner(atom->nmax, 0)
+    FixNeighHistory(lmp, narg, arg), owner(atom->nmax, 0), place_in_list(atom->nmax, -1)
 {
   std::copy_n(atom->tag, atom->nlocal, owner.begin());
+  comm_border = 1;    // whether a ghost is a new particle
+  atom->add_callback(Atom::BORDER);
 }
 
-Fix *ContactHistory::make(LAMMPS *lmp, int narg, char **arg)
+ContactHistory::~ContactHistory()
+{
+  if (!copymode) atom->delete_callback(id, Atom::BORDER);
+}
+
+Fix *ContactHistory::create(LAMMPS *lmp, int narg, char **arg)
 {
   return new ContactHistory(lmp, narg, arg);
 }
 
-ContactHistory *ContactHistory::replace(LAMMPS *lmp, const std::string &place_holder,
-                                        const std::string &id, int values, Pair *contacts_of)
+ContactHistory *ContactHistory::make(LAMMPS *lmp, const std::string &id, int values,
+                                     Pair *contacts_of)
 {
-  const OtherCreator creator(lmp->modify, &ContactHistory::make);
-  // without a suffix: NEIGH_HISTORY/omp forgets contacts with ghosts with newton on
-  auto *made = static_cast<ContactHistory *>(lmp->modify->replace_fix(
-      place_holder, fmt::format("{} all {} {}", id, fix_style, values), 0));
+  ContactHistory *made = nullptr;
+  {
+    const OtherCreator creator(lmp->modify, &ContactHistory::create);
+    // without a suffix: NEIGH_HISTORY/omp forgets contacts with ghosts with newton on
+    made = static_cast<ContactHistory *>(lmp->modify->replace_fix(
+        place_holder(id), fmt::format("{} all {} {}", id, fix_style, values), 0));
+  }
   made->pair = contacts_of;
+  const std::string reason = made->what_does_not_fit();
+  if (!reason.empty()) {
+    lmp->modify->replace_fix(id, place_holder(id) + " all DUMMY", 0);
+    lmp->error->all(FLERR, "pair_style gran/eepa: {}", reason);
+  }
   return made;
 }
 
@@ -72,8 +87,9 @@ void ContactHistory::force_is_computed()
 void ContactHistory::end_interrupted_run()
 {
   if (partners_are_newest) return;
-  const int mine =
+  int mine =
       !list_is_old && nlocal_neigh == atom->nlocal && nall_neigh == atom->nlocal + atom->nghost;
+  for (int i = 0; i < atom->nlocal; i++) mine &= place_in_list[i] == i;
   int all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
   if (!all)
@@ -88,17 +104,6 @@ void ContactHistory::post_run()
   // after `run 0 pre no` it may be: nothing was computed, and the partners are as they were
   if (!list_is_old) FixNeighHistory::post_run();
   partners_are_newest = true;
-}
-
-void ContactHistory::write_restart(FILE *fp)
-{
-  if (!partners_are_newest) {
-    FixNeighHistory::write_restart(fp);
-  } else if (comm->me == 0) {
-    // as LAMMPS's fix has it: no state beside that of the particles
-    const int size = 0;
-    fwrite(&size, sizeof(int), 1, fp);
-  }
 }
 
 void ContactHistory::init()
@@ -139,7 +144,7 @@ void ContactHistory::keep_partners_in_new_pages()
   }
 }
 
-/* ---------------------------------------------------------------------- whose lists they are */
+/* ---------------------------------------------------------------------- which particle a list belongs to */
 
 bool ContactHistory::ids_are_kept() const
 {
@@ -150,38 +155,77 @@ bool ContactHistory::ids_are_kept() const
   return all != 0;
 }
 
+namespace {
+/// Gives LAMMPS other IDs as long as it lives.
+class OtherIds {
+ public:
+  OtherIds(Atom *atom, tagint *ids) : tag(atom->tag), lammps_own(atom->tag) { tag = ids; }
+  ~OtherIds() { tag = lammps_own; }
+  OtherIds(const OtherIds &) = delete;
+  OtherIds &operator=(const OtherIds &) = delete;
+
+ private:
+  tagint *&tag;
+  tagint *const lammps_own;
+};
+}    // namespace
+
 void ContactHistory::pre_exchange()
 {
-  FixNeighHistory::pre_exchange();
+  {
+    // The neighbour list knows particles by their places. A fix before this one may have deleted
+    // some, whose places others took, and inserted others over the IDs of ghosts.
+    const OtherIds of_list(atom, list_ids.data());
+    FixNeighHistory::pre_exchange();
+  }
+  follow_particles();
   reserve_exchange();
-  // those beyond are new: other fixes have just brought them
-  std::copy_n(atom->tag, std::min(nlocal_neigh, atom->nlocal), owner.begin());
+  for (int i = 0; i < atom->nlocal; i++)
+    if (place_in_list[i] >= 0) owner[i] = atom->tag[i];
+}
+
+/// Gives the lists of partners, which stand where particles were when the neighbour list was made,
+/// to where these are now.
+void ContactHistory::follow_particles()
+{
+  const int n = atom->nlocal;
+  bool moved = false;
+  for (int i = 0; i < n; i++) moved |= place_in_list[i] != (i < nlocal_neigh ? i : -1);
+  if (!moved) return;
+  const std::vector<int> counts(npartner, npartner + nlocal_neigh);
+  const std::vector<tagint *> ids(partner, partner + nlocal_neigh);
+  const std::vector<double *> values(valuepartner, valuepartner + nlocal_neigh);
+  for (int i = 0; i < n; i++) {
+    const int place = place_in_list[i];
+    npartner[i] = place < 0 ? 0 : counts[place];
+    if (place < 0) continue;
+    partner[i] = ids[place];
+    valuepartner[i] = values[place];
+  }
 }
 
 void ContactHistory::post_neighbor()
 {
   forget_partners_with_new_ids();
+  const auto stored = std::accumulate(npartner, npartner + atom->nlocal, bigint{0});
   FixNeighHistory::post_neighbor();
   list_is_old = false;
+  list_ids.assign(atom->tag, atom->tag + nall_neigh);
+  std::iota(place_in_list.begin(), place_in_list.begin() + nlocal_neigh, 0);
+  if (just_restarted) warn_of_lost_histories(stored);
 }
 
-/// A new particle may have the ID of one that is gone: it has no history with anybody.
+/// A new particle may have the ID of one that is gone: it has no history with anybody. A list of
+/// partners finds particles that are here or ghosts here, and ghosts brought word of whether they
+/// are new.
 void ContactHistory::forget_partners_with_new_ids()
 {
-  std::vector<tagint> mine;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (owner[i] != 0) continue;
-    owner[i] = atom->tag[i];
-    mine.push_back(owner[i]);
-  }
-  const int n = static_cast<int>(mine.size());
-  std::vector<int> sizes(comm->nprocs), starts(comm->nprocs, 0);
-  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, world);
-  std::partial_sum(sizes.begin(), sizes.end() - 1, starts.begin() + 1);
-  std::vector<tagint> fresh(starts.back() + sizes.back());
+  std::vector<tagint> fresh;
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    if (owner[i] == 0) fresh.push_back(atom->tag[i]);
   if (fresh.empty()) return;
-  MPI_Allgatherv(mine.data(), n, MPI_LMP_TAGINT, fresh.data(), sizes.data(), starts.data(),
-                 MPI_LMP_TAGINT, world);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (owner[i] == 0) owner[i] = atom->tag[i];
   std::sort(fresh.begin(), fresh.end());
   for (int i = 0; i < atom->nlocal; i++) {
     int kept = 0;
@@ -208,18 +252,33 @@ void ContactHistory::grow_arrays(int nmax)
 {
   FixNeighHistory::grow_arrays(nmax);
   owner.resize(nmax, 0);
+  place_in_list.resize(nmax, -1);
 }
 
 void ContactHistory::copy_arrays(int i, int j, int delflag)
 {
   FixNeighHistory::copy_arrays(i, j, delflag);
   owner[j] = owner[i];
+  place_in_list[j] = place_in_list[i];
 }
 
 void ContactHistory::set_arrays(int i)
 {
   FixNeighHistory::set_arrays(i);
   owner[i] = 0;
+  place_in_list[i] = -1;
+}
+
+int ContactHistory::pack_border(int n, int *particles, double *buf)
+{
+  for (int k = 0; k < n; k++) buf[k] = ubuf(owner[particles[k]]).d;
+  return n;
+}
+
+int ContactHistory::unpack_border(int n, int first, double *buf)
+{
+  for (int k = 0; k < n; k++) owner[first + k] = static_cast<tagint>(ubuf(buf[k]).i);
+  return n;
 }
 
 int ContactHistory::pack_exchange(int i, double *buf)
@@ -233,40 +292,13 @@ int ContactHistory::unpack_exchange(int i, double *buf)
 {
   const int m = FixNeighHistory::unpack_exchange(i, buf);
   owner[i] = static_cast<tagint>(ubuf(buf[m]).i);
+  place_in_list[i] = -1;
   reserve_exchange();
   return m + 1;
-}
-
-int ContactHistory::pack_restart(int i, double *buf)
-{
-  const int m = FixNeighHistory::pack_restart(i, buf);
-  buf[m] = ubuf(owner[i]).d;
-  buf[0] = m + 1;
-  return m + 1;
-}
-
-void ContactHistory::unpack_restart(int i, int nth)
-{
-  FixNeighHistory::unpack_restart(i, nth);
-  reserve_exchange();
-  const double *entry = atom->extra[i];
-  for (int k = 0; k < nth; k++) entry += static_cast<int>(*entry);
-  // a file of LAMMPS's own fix would have no owner
-  const int size = static_cast<int>(*entry);
-  owner[i] = size == size_restart(i) ? static_cast<tagint>(ubuf(entry[size - 1]).i) : atom->tag[i];
-}
-
-int ContactHistory::size_restart(int i)
-{
-  return FixNeighHistory::size_restart(i) + 1;
-}
-
-int ContactHistory::maxsize_restart()
-{
-  return FixNeighHistory::maxsize_restart() + 1;
 }
 
 double ContactHistory::memory_usage()
 {
-  return FixNeighHistory::memory_usage() + static_cast<double>(owner.capacity() * sizeof(tagint));
+  return FixNeighHistory::memory_usage() + static_cast<double>((owner.capacity() + list_ids.capacity()) * sizeof(tagint) +
+                          place_in_list.capacity() * sizeof(int));
 }

@@ -334,6 +334,8 @@ StyleArguments unpack_style(const std::array<double, packed_style_size> &n)
   style.settings.reference_diameter = n[4];
   style.settings.limit_damping = n[5] != 0.0;
   style.time_step_check = enumerator(n[6], TimeStepCheck::error, "dtcheck");
+  const Findings found = validate(style.settings);
+  if (!found.errors.empty()) refuse("the restart file is damaged: " + joined(found.errors));
   return style;
 }
 

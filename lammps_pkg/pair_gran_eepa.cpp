@@ -78,9 +78,10 @@ PairGranEepa::PairGranEepa(LAMMPS *lmp) : Pair(lmp), masses(lmp)
   int n = 0;
   do {
     history_id = "NEIGH_HISTORY_EEPA" + std::to_string(n++);
-  } while (modify->get_fix_by_id(history_id) || modify->get_fix_by_id(history_id + "_DUMMY"));
+  } while (modify->get_fix_by_id(history_id) ||
+           modify->get_fix_by_id(ContactHistory::place_holder(history_id)));
   // takes the place that the history fix will have among the fixes
-  modify->add_fix(history_id + "_DUMMY all DUMMY");
+  modify->add_fix(ContactHistory::place_holder(history_id) + " all DUMMY");
 }
 
 PairGranEepa::~PairGranEepa()
@@ -88,7 +89,7 @@ PairGranEepa::~PairGranEepa()
   if (copymode) return;
   delete[] svector;
   svector = nullptr;
-  modify->delete_fix(fix_history ? history_id : history_id + "_DUMMY");
+  modify->delete_fix(fix_history ? history_id : ContactHistory::place_holder(history_id));
   if (allocated) {
     memory->destroy(setflag);
     memory->destroy(cutsq);
@@ -175,7 +176,6 @@ void PairGranEepa::init_style()
   if (!atom->tag_enable)
     error->all(FLERR, "{}: atoms must have IDs; use atom_modify id yes", style_name);
 
-  neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
   dt = update->dt;
   masses.init(style_name);
   init_radii();
@@ -205,18 +205,15 @@ void PairGranEepa::init_style()
   init_history();
   choose_law();
   coefficient_classes.clear();    // init_one() is still to come
+  // last: after an error LAMMPS would keep the request of a pair style that may be gone
+  neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
 }
 
 void PairGranEepa::init_history()
 {
   const int size = history_size();
-  if (restart_history_size && restart_history_size != size)
-    error->all(FLERR,
-               "{}: the restart file has {} values a contact and the pair_coeffs need {}; rolling "
-               "sds and twisting can not be switched on or off with a restart",
-               style_name, restart_history_size, size);
   if (!fix_history) {
-    fix_history = ContactHistory::replace(lmp, history_id + "_DUMMY", history_id, size, this);
+    fix_history = ContactHistory::make(lmp, history_id, size, this);
   } else if (fix_history->get_dnum() != size) {
     error->all(FLERR, "{}: rolling sds and twisting can not be switched on or off after a run",
                style_name);
@@ -229,6 +226,7 @@ void PairGranEepa::init_history()
         "{}: atom IDs were renumbered while there were contacts, whose history is kept by ID; "
         "use delete_atoms with compress no, and no reset_atoms id",
         style_name);
+  fix_history->go_on_with(style.settings);
 }
 
 void PairGranEepa::init_radii()
@@ -414,8 +412,15 @@ void PairGranEepa::read_restart(FILE *fp)
       if (comm->me == 0)
         utils::sfread(FLERR, numbers.data(), sizeof(double), numbers.size(), fp, nullptr, error);
       MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, world);
-      parameters[pair_index(i, j)] = parameters[pair_index(j, i)] =
-          eepa::unpack_parameters(numbers);
+      try {
+        eepa::Parameters read = eepa::unpack_parameters(numbers);
+        eepa::Words warnings;    // were given when the coefficients were typed
+        eepa::require_valid(read, style.settings, warnings);
+        parameters[pair_index(i, j)] = parameters[pair_index(j, i)] = read;
+      } catch (const std::invalid_argument &e) {
+        error->all(FLERR, "{}: the restart file is damaged: pair_coeff {} {}: {}", style_name, i, j,
+                   e.what());
+      }
     }
   }
 }
@@ -423,40 +428,25 @@ void PairGranEepa::read_restart(FILE *fp)
 void PairGranEepa::write_restart_settings(FILE *fp)
 {
   write_numbers(eepa::pack(style), fp);
-  double size = history_size();
-  if (!fix_history) {
-    // as write_restart noinit before the first run has it: no rolling model is chosen yet, and the
-    // histories of a restart file are not taken up
-    eepa::RollingModel rolls = eepa::RollingModel::none;
-    eepa::TwistingModel twists = eepa::TwistingModel::none;
-    for (const auto &pair : parameters) {
-      if (pair.rolling == eepa::RollingModel::sds) rolls = pair.rolling;
-      if (pair.twisting != eepa::TwistingModel::none) twists = pair.twisting;
-    }
-    size = eepa::history_size(rolls, twists);
-    // LAMMPS calls this on rank 0 only
+  // as with write_restart noinit; LAMMPS calls this on rank 0 only
+  if (!fix_history)
     error->warning(FLERR,
                    "{}: the restart file has no histories of contacts, because there was neither a "
                    "run nor an init before it",
                    style_name);
-  }
-  fwrite(&size, sizeof(double), 1, fp);
 }
 
 void PairGranEepa::read_restart_settings(FILE *fp)
 {
-  std::array<double, eepa::packed_style_size + 1> numbers;
+  std::array<double, eepa::packed_style_size> numbers;
   if (comm->me == 0)
     utils::sfread(FLERR, numbers.data(), sizeof(double), numbers.size(), fp, nullptr, error);
   MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, world);
-  std::array<double, eepa::packed_style_size> packed;
-  std::copy_n(numbers.begin(), packed.size(), packed.begin());
   try {
-    style = eepa::unpack_style(packed);
+    style = eepa::unpack_style(numbers);
   } catch (const std::invalid_argument &e) {
     error->all(FLERR, "{}: {}", style_name, e.what());
   }
-  restart_history_size = static_cast<int>(numbers.back());
 }
 
 void PairGranEepa::warn_of_data_file() const

@@ -121,10 +121,9 @@ class PairGranEepa : public Pair {
   double dt = 0.0;
 
   class ContactHistory *fix_history = nullptr;
-  std::string history_id;    // of fix_history, or with _DUMMY of its place holder
+  std::string history_id;    // of fix_history, or of what its place holder keeps the place of
   std::vector<double> max_radius_dynamic, max_radius_frozen;    // by type
   bool plateau_warned = false, narrow_box_warned = false;
-  int restart_history_size = 0;    // of the restart file, 0 without
 
   EnergyLedger ledger;
   bool keep_ledger = false;

@@ -168,7 +168,9 @@ TEST_P(ParallelReplacement, RenumberedIdsAreRefused)
   restarted("read_restart " + file.name() +
             "\ncomm_modify vel yes\nneighbor 0.1 bin\nfix integrate all nve/sphere\n"
             "group gone id 7\ndelete_atoms group gone");
-  EXPECT_TRUE(refuses(restarted, "run 0", message));
+  EXPECT_TRUE(refuses(restarted, "run 0",
+                      "atoms were deleted, or given other IDs, after read_restart and before the "
+                      "first run.*put run 0 before that command"));
 }
 
 // The pair's histories would be found under the new IDs all the same, one way or another.

@@ -441,7 +441,7 @@ TEST_F(RestartMismatch, OfTheFormatIsRefused)
 {
   write("");
   std::string bytes = file.text();
-  // the package's format number, 2.0, stands before the law, the exponent and scale: 1 1 1 0
+  // the package's format number, 2.0, stands before the law, the exponent and scale: 2 1 1 0
   const double settings[] = {2.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0};
   const std::string before(reinterpret_cast<const char *>(settings), sizeof(settings));
   const auto at = bytes.find(before);
