@@ -243,8 +243,7 @@ INSTANTIATE_TEST_SUITE_P(Newton, ParallelReusedId, testing::Values("on", "off"))
 class ParallelInsertion : public testing::TestWithParam<const char *> {
  protected:
   static std::vector<Particle> rain(MPI_Comm comm, const std::string &newton,
-                                    const std::string &inserting, int *highest,
-                                    const std::string &before = "")
+                                    const std::string &inserting, int *highest)
   {
     Simulation simulation(comm);
     simulation.open_box(3.0, 1, "p p f", newton);
@@ -255,7 +254,7 @@ class ParallelInsertion : public testing::TestWithParam<const char *> {
     auto spheres = packing.spheres();
     for (auto &s : spheres) s.x.z() -= 0.6;
     simulation.create(spheres);
-    simulation(before + "\npair_style gran/eepa linear\npair_coeff * * " + coefficients +
+    simulation(std::string("pair_style gran/eepa linear\npair_coeff * * ") + coefficients +
                "\nfix integrate all nve/sphere\nfix gravity all gravity 30 vector 0 0 -1\n"
                "timestep 5e-4\nfix floor all wall/gran/eepa linear coeff " +
                coefficients + " wall zplane -3 3 contacts\n" + inserting);
@@ -320,25 +319,33 @@ TEST_P(ParallelInsertion, FixEvaporateAndDeposit)
   EXPECT_EQ(ids.size(), end.size());
 }
 
-// A fix that is defined before the pair style deletes particles before their histories are taken
-// from the neighbour list, which knows them by their places: others have these by then.
+// A fix that is defined before the pair style deletes and inserts particles before histories are
+// taken from the neighbour list, which knows them by their places: others have these by then, and
+// new ones those of ghosts.
 TEST_P(ParallelInsertion, ByFixesBeforeThePairStyle)
 {
-  const std::string regions = "region low block -3 3 -3 3 -3 -1\n"
-                              "region slab block -2.9 2.9 -2.9 2.9 1.8 2.4\n";
-  const std::string evaporate = "fix evaporate all evaporate 40 2 low 49892\n";
-  const std::string deposit =
-      "fix deposit all deposit 40 1 15 4767 region slab near 1.05 attempt 200 vz -2 -1 units box\n";
+  const std::string evaporate = "fix evaporate all evaporate 20 3 everywhere 49892\n";
+  const std::string deposit = "fix deposit all deposit 15 1 20 4767 region everywhere near 0.8 "
+                              "attempt 200 units box\n";
   const struct {
     std::string before, after;
   } orders[] = {{"", evaporate + deposit}, {evaporate, deposit}, {evaporate + deposit, ""}};
   std::vector<Particle> first;
   for (const auto &order : orders) {
-    int highest = 0;
-    const auto end = rain(MPI_COMM_WORLD, GetParam(), order.after, &highest,
-                          regions + order.before);
+    Packing packing;
+    packing.side = 5;
+    packing.speed = 2.0;
+    Simulation simulation;
+    simulation.open_box(packing.half(), 1, "p p p", GetParam());
+    simulation.create(packing.spheres());
+    simulation("region everywhere block EDGE EDGE EDGE EDGE EDGE EDGE\n" + order.before +
+               "pair_style gran/eepa linear\npair_coeff * * " + coefficients +
+               "\nfix integrate all nve/sphere\ntimestep 2e-4\n" + order.after);
+    simulation.run(400);
+    const auto end = simulation.particles();
     if (first.empty()) first = end;
-    EXPECT_LT(end.size(), static_cast<std::size_t>(highest));
+    EXPECT_LT(end.size(), 110u);
+    EXPECT_GT(end.back().id, 125);
     EXPECT_EQ(difference(first, end), 0.0) << order.before;
   }
 }
