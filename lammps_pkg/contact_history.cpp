@@ -299,6 +299,7 @@ int ContactHistory::unpack_exchange(int i, double *buf)
 
 double ContactHistory::memory_usage()
 {
-  return FixNeighHistory::memory_usage() + static_cast<double>((owner.capacity() + list_ids.capacity()) * sizeof(tagint) +
+  return FixNeighHistory::memory_usage() +
+      static_cast<double>((owner.capacity() + list_ids.capacity()) * sizeof(tagint) +
                           place_in_list.capacity() * sizeof(int));
 }

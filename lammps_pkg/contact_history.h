@@ -93,9 +93,9 @@ class ContactHistory : public FixNeighHistory {
   };
   /// What of a restart file can not be taken up, on this rank; 0 where all can.
   struct Misfit {
-    int values = 0;       ///< of a contact, where it is another number
-    int moved = 0;        ///< lists of partners of other particles
-    int damaged = 0;      ///< lists with impossible numbers
+    int values = 0;     ///< of a contact, where it is another number
+    int moved = 0;      ///< lists of partners of other particles
+    int damaged = 0;    ///< lists with impossible numbers
   };
 
   // ID of the particle that a list of partners belongs to, 0 for a new particle; ghosts too

@@ -209,11 +209,12 @@ class ParallelReusedId : public testing::TestWithParam<const char *> {};
 
 TEST_P(ParallelReusedId, HasNoHistory)
 {
-  for (const double side : {-1.0, 1.0}) {    // whether it lies before or behind its partner
+  // whether it lies before or behind its partner; on several ranks z = 0 parts the two
+  for (const double side : {-1.0, 1.0}) {
     Simulation simulation;
     simulation.open_box(3.0, 1, "f f f", GetParam());
-    simulation.create({{Vec3(-0.47 * side, 0, 0)}, {Vec3(0.5 * side, 0, 0)}});
-    simulation.set_velocity(2, Vec3(-1.5 * side, 0.5, 0));
+    simulation.create({{Vec3(0, 0, -0.47 * side)}, {Vec3(0, 0, 0.5 * side)}});
+    simulation.set_velocity(2, Vec3(0, 0.5, -1.5 * side));
     simulation("group moving id 2\npair_style gran/eepa linear\npair_coeff * * " +
                std::string(coefficients) + "\nfix integrate all nve/sphere\ntimestep 2e-4");
     simulation.watch_contacts();
@@ -221,11 +222,12 @@ TEST_P(ParallelReusedId, HasNoHistory)
     simulation("velocity all set 0 0 0");
     simulation.run(0);
     const double before = simulation.contacts().at(0).max_overlap();
-    const std::string at = exact(0.49 * side), to = exact(0.51 * side);
-    simulation(std::string("region there block ") + (side > 0 ? "0.2 0.9" : "-0.9 -0.2") +
-               " -0.5 0.5 -0.5 0.5\nregion spot block " +
+    const std::string at = exact(0.5 * side), to = exact(0.51 * side);
+    simulation(std::string("region there block -0.5 0.5 -0.5 0.5 ") +
+               (side > 0 ? "0.2 0.9" : "-0.9 -0.2") +
+               "\nregion spot block -0.005 0.005 -0.005 0.005 " +
                (side > 0 ? at + " " + to : to + " " + at) +
-               " -0.005 0.005 -0.005 0.005\nfix goes moving evaporate 1 1 there 123\n"
+               "\nfix goes moving evaporate 1 1 there 123\n"
                "fix comes all deposit 1 1 1000 777 region spot units box");
     simulation.run(1);
     ASSERT_EQ(simulation.particles().size(), 2u);

@@ -114,7 +114,9 @@ const Scripts layouts[] = {
      7, 4},
 };
 INSTANTIATE_TEST_SUITE_P(Scripts, ParallelLayout, testing::ValuesIn(layouts),
-                         [](const auto &scripts) { return scripts.param.name; });
+                         [](const auto &scripts) {
+                           return scripts.param.name;
+                         });
 
 TEST(RestartLaw, ThatIsAnotherOneIsSaid)
 {
@@ -157,8 +159,8 @@ TEST(RestartLaw, ThatChangesBetweenRunsIsSaid)
 TEST(RestartOrder, OfSubStylesThatIsAnotherOneIsSaid)
 {
   const std::string style = "pair_style hybrid gran/eepa linear gran/eepa linear\n";
-  const Written original(style + "pair_coeff 1 * gran/eepa 1" + base +
-                         "\npair_coeff 2 2 gran/eepa 2" + base, false);
+  const Written original(
+      style + "pair_coeff 1 * gran/eepa 1" + base + "\npair_coeff 2 2 gran/eepa 2" + base, false);
   const ScratchFile log(".log");
   {
     Simulation restarted(MPI_COMM_WORLD, log.name());
@@ -175,8 +177,7 @@ class ParallelDeletion : public testing::TestWithParam<const char *> {};
 // for them.
 TEST_P(ParallelDeletion, BetweenReadRestartAndTheFirstRunIsRefused)
 {
-  const Written original("pair_style gran/eepa linear\npair_coeff * *" + base, true,
-                         GetParam());
+  const Written original("pair_style gran/eepa linear\npair_coeff * *" + base, true, GetParam());
   const std::string remove = "group gone id 1:20\ndelete_atoms group gone compress no\n";
   Simulation at_once, after_setup;
   EXPECT_TRUE(refuses(at_once, read(original.file) + remove + "run 0",
