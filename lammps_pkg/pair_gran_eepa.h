@@ -86,20 +86,21 @@ class PairGranEepa : public Pair {
   }
 
  protected:
-  /// The quantities of single() beyond the force, in the order of p1, p2, ...
+  /// The quantities of single() beyond the force, in the order of p1, p2, ... LAMMPS has the
+  /// tangential force first in all its granular styles, and compute fabric takes the fourth.
   enum SingleQuantity {
+    TANGENTIAL_X,    ///< tangential force on i
+    TANGENTIAL_Y,
+    TANGENTIAL_Z,
+    TANGENTIAL,         ///< its magnitude
     BRANCH,             ///< 1 loading, 2 unloading, 3 adhesive
     OVERLAP,            ///< delta
     MAX_OVERLAP,        ///< delta_max
     PLASTIC_OVERLAP,    ///< delta_p
     SLIP,               ///< 1 at the friction bound
-    TANGENTIAL_X,       ///< tangential force on i
-    TANGENTIAL_Y,
-    TANGENTIAL_Z,
-    TANGENTIAL,        ///< its magnitude
-    HYSTERETIC,        ///< f_hys
-    FRICTION_BOUND,    ///< what TANGENTIAL can not exceed
-    ENERGY_NORMAL,     ///< recoverable energies
+    HYSTERETIC,         ///< f_hys
+    FRICTION_BOUND,     ///< what TANGENTIAL can not exceed
+    ENERGY_NORMAL,      ///< recoverable energies
     ENERGY_TANGENTIAL,
     ENERGY_ROLLING,
     ROLLING_TORQUE_X,    ///< rolling torque on i
@@ -158,6 +159,7 @@ class PairGranEepa : public Pair {
   void warn(const eepa::Words &);
   void warn_of_data_file() const;
   int find_history(int i, int j, const double *&values, double &sign) const;
+  void require_their_distance(int i, int j, double rsq) const;
 
   ParticleArrays particle_arrays();
   bool bonds_weaken_contacts() const;

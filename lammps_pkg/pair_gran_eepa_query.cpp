@@ -11,11 +11,13 @@
 #include <eepa/dispatch.h>
 
 #include "atom.h"
+#include "error.h"
 #include "force.h"
 #include "neigh_list.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace LAMMPS_NS;
 using eepa::Vec3;
@@ -45,9 +47,24 @@ int PairGranEepa::find_history(int i, int j, const double *&values, double &sign
   return ContactStatus::none;
 }
 
+void PairGranEepa::require_their_distance(int i, int j, double rsq) const
+{
+  const int known = atom->nlocal + atom->nghost;
+  const double there = std::max(i, j) < known
+      ? (Vec3(atom->x[i]) - Vec3(atom->x[j])).squaredNorm()
+      : std::numeric_limits<double>::infinity();
+  if (std::fabs(rsq - there) <= 1e-9 * there) return;
+  error->one(FLERR,
+             "pair_style gran/eepa: the force of a contact depends on its history and exists only "
+             "for particles where they are, not for any distance ({:.6g} was asked for); pair_write, "
+             "fix widom and fix gcmc can not be used",
+             std::sqrt(rsq));
+}
+
 double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, double /*factor_coul*/,
                             double factor_lj, double &fforce)
 {
+  require_their_distance(i, j, rsq);
   fforce = 0.0;
   for (int k = 0; k < single_extra; k++) svector[k] = 0.0;
   const double reach = atom->radius[i] + atom->radius[j];
@@ -71,6 +88,9 @@ double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, doub
     svector[BRANCH] = static_cast<int>(ContactStatus::branch(status));
     svector[SLIP] = (status & ContactStatus::sliding) ? 1.0 : 0.0;
   }
+  // as special_bonds weakens a contact, all its forces, torques and energies
+  for (int k = 0; k < N_SINGLE; k++)
+    if (k < BRANCH || k > SLIP) svector[k] *= factor_lj;
   fforce *= factor_lj / std::sqrt(rsq);
   return factor_lj * energy;
 }

@@ -52,12 +52,12 @@ struct PairContact {
   double distance, energy;
   double normal_force;      ///< along the line of centres, positive repels
   std::vector<double> p;    ///< p1, p2, ... of compute pair/local: p[0] is p1
-  double branch() const { return p[0]; }
-  double overlap() const { return p[1]; }
-  double max_overlap() const { return p[2]; }
-  double plastic_overlap() const { return p[3]; }
-  double slip() const { return p[4]; }
-  Vec3 tangential() const { return {p[5], p[6], p[7]}; }    ///< on i
+  double branch() const { return p[4]; }
+  double overlap() const { return p[5]; }
+  double max_overlap() const { return p[6]; }
+  double plastic_overlap() const { return p[7]; }
+  double slip() const { return p[8]; }
+  Vec3 tangential() const { return {p[0], p[1], p[2]}; }    ///< on i
 };
 
 /// A LAMMPS with this package's styles. Everything is collective over `comm`, and every answer
