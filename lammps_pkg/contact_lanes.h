@@ -47,11 +47,7 @@ class ContactLanes {
 
     const Vector moment = ContactLaw::tangential_moment(response, contact_);
     Vector torque_i = -arm_i_ * moment, torque_j = -arm_j_ * moment;
-    if constexpr (ContactLaw::has_couple) {
-      const Vector couple = ContactLaw::couple_on_i(response, contact_);
-      torque_i += couple;
-      torque_j -= couple;
-    }
+    ContactLaw::add_couple(response, contact_, torque_i, torque_j);
     scatter(ContactLaw::force_on_i(response, contact_), torque_i, torque_j, f, torque, slice);
   }
 

@@ -268,8 +268,8 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
                                                                       before, state),
                                 1.0);
       }
-      Vec3 turn = -arm * ContactLaw::tangential_moment(response, contact);
-      if constexpr (ContactLaw::has_couple) turn += ContactLaw::couple_on_i(response, contact);
+      Vec3 turn = -arm * ContactLaw::tangential_moment(response, contact), wall_turn = turn;
+      ContactLaw::add_couple(response, contact, turn, wall_turn);
       for (int k = 0; k < 3; k++) {
         f[i][k] += force[k];
         torque[i][k] += turn[k];

@@ -333,11 +333,7 @@ void PairGranEepa::evaluate_fully(ContactSlice &slice, const FoundContact *conta
     const Vec3 pair_force = factor * ContactLaw::force_on_i(response, contact);
     const Vec3 moment = ContactLaw::tangential_moment(response, contact);
     Vec3 torque_i = -arms.i * moment, torque_j = -arms.j * moment;
-    if constexpr (ContactLaw::has_couple) {
-      const Vec3 couple = ContactLaw::couple_on_i(response, contact);
-      torque_i += couple;
-      torque_j -= couple;
-    }
+    ContactLaw::add_couple(response, contact, torque_i, torque_j);
     vector_at(f, i) += pair_force;
     vector_at(torque, i) += factor * torque_i;
     if (slice.writes(j)) {

@@ -159,18 +159,21 @@ template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> s
     return response.normal_force * contact.normal + response.tangential_force;
   }
 
-  /// Couple of rolling and twisting on i, j gets the opposite one; only where has_couple.
+  /// Adds the couple of rolling and twisting to the torques of both partners.
   template <class Real>
-  EEPA_FUNCTION static Vector3<Real> couple_on_i(const ResponseOf<Real> &response,
-                                                 const ContactOf<Real> &contact)
+  EEPA_FUNCTION static void add_couple(const ResponseOf<Real> &response,
+                                       const ContactOf<Real> &contact, Vector3<Real> &torque_i,
+                                       Vector3<Real> &torque_j)
   {
-    static_assert(has_couple, "there is none");
-    if constexpr (!has_twisting)
-      return response.rolling_torque;
-    else if constexpr (!has_rolling)
-      return response.twisting_torque * contact.normal;
-    else
-      return response.rolling_torque + response.twisting_torque * contact.normal;
+    if constexpr (has_rolling) {
+      torque_i += response.rolling_torque;
+      torque_j -= response.rolling_torque;
+    }
+    if constexpr (has_twisting) {
+      const Vector3<Real> twisting = response.twisting_torque * contact.normal;
+      torque_i += twisting;
+      torque_j -= twisting;
+    }
   }
 
   /// u x f_t: times -lever_arm() it is the tangential force's torque on either partner.

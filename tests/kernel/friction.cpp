@@ -155,10 +155,10 @@ TEST(Friction, SlidingForceLiesOnTheBoundAndTheNextStepStartsThere)
       continue;
     }
     // but for the dashpot of a call without time, which sees the normal of now
-    ASSERT_NEAR(next.tangential_force.norm(), out.friction_bound, 1e-5 * out.friction_bound);
+    ASSERT_NEAR(next.tangential_force.norm(), out.friction_bound, 1e-4 * out.friction_bound);
     if (history.tangential_spring.norm() == 0.0) continue;    // the dashpot alone slides
     springs++;
-    ASSERT_LT(deviation(next.tangential_force, out.tangential_force), 1e-5);
+    ASSERT_LT(deviation(next.tangential_force, out.tangential_force), 1e-4);
     const Vec3 trial = -kt * trial_spring + dashpot;
     ASSERT_LT((trial.normalized() - out.tangential_force.normalized()).norm(), 1e-9);
   }

@@ -181,8 +181,12 @@ TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
             expect_bits(response.rolling_torque, l, alone.rolling_torque, "rolling torque");
           if constexpr (ContactLaw::has_twisting) {
             expect_bits(response.twisting_torque[l], alone.twisting_torque, "twisting torque");
-            expect_bits(ContactLaw::couple_on_i(response, together), l,
-                        ContactLaw::couple_on_i(alone, contacts[l]), "couple");
+            Vector3<Lanes> torque_i = moment, torque_j = moment;
+            ContactLaw::add_couple(response, together, torque_i, torque_j);
+            Vec3 own_i = ContactLaw::tangential_moment(alone, contacts[l]), own_j = own_i;
+            ContactLaw::add_couple(alone, contacts[l], own_i, own_j);
+            expect_bits(torque_i, l, own_i, "torque on i");
+            expect_bits(torque_j, l, own_j, "torque on j");
           }
           EXPECT_EQ(response.branch[l], static_cast<double>(alone.branch));
           EXPECT_EQ(response.sliding[l], alone.sliding);

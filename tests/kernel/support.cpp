@@ -15,11 +15,11 @@ Outcome evaluate(const Material &m, const Bodies &b, double time_step, History &
         Law::evaluate(c, m.law.limit_damping, contact, time_step, history);
     if (!Law::has_rolling) out.rolling_torque.setZero();
     if (!Law::has_twisting) out.twisting_torque = 0.0;
-    const Vec3 couple = out.rolling_torque + out.twisting_torque * b.u;
     out.force = Law::force_on_i(out, contact);
     const Vec3 moment = Law::tangential_moment(out, contact);
-    out.torque_i = -b.arm_i() * moment + couple;
-    out.torque_j = -b.arm_j() * moment - couple;
+    out.torque_i = -b.arm_i() * moment;
+    out.torque_j = -b.arm_j() * moment;
+    Law::add_couple(out, contact, out.torque_i, out.torque_j);
     out.energy = Law::stored_energy(c, contact.size, contact.overlap, history);
     out.lost = dissipation_of_step<Law>(c, contact, out, time_step, before.max_overlap == 0.0,
                                         before, history);
