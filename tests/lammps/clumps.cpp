@@ -50,7 +50,7 @@ TEST(ParallelClumps, PouredFromATemplateSettleOnAFloor)
              " 0 4767 region pour mol clump rigid move\n"
              "thermo_modify lost error\ntimestep 1e-5");
   simulation.watch_contacts();
-  simulation.run(20000);
+  simulation.run(30000);
 
   const auto particles = simulation.particles();
   ASSERT_EQ(particles.size(), 3u * clumps);
