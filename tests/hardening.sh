@@ -5,6 +5,7 @@
 #   hardening.sh fuzz [SECONDS]   libFuzzer on the parser and on the kernel, SECONDS each (300)
 #   hardening.sh sanitizers       every test with address and undefined-behaviour sanitizers
 #   hardening.sh valgrind         memcheck on tests/fuzz/in.valgrind
+#   hardening.sh differential [COUNT]  random scripts in ways that must not matter, on 1, 2 and 4 ranks (100)
 #   hardening.sh fpe              the same in-file with floating-point exceptions trapped
 #
 # EEPA_LMP: the lmp to use (build/lmp). EEPA_HARDENING_DIR: working folder (build-hardening).
@@ -129,13 +130,28 @@ C
     [ $passed -eq $runs ]
 }
 
+differential() {
+    test=$root/build/test_lammps status=0
+    [ -x "$test" ] || die "$test does not exist: build first"
+    for ranks in 1 2 4; do
+        # shellcheck disable=SC2046  # each line is an argument
+        env $(grep -v '^#' "$root/scripts/mpi.env") OMP_WAIT_POLICY=passive \
+            EEPA_RANDOM_SCRIPTS="$((1000 * ranks)) ${1:-100}" mpirun -np $ranks "$test" \
+            --gtest_filter='ParallelRandomScripts.*' >"$work/differential.$ranks.log" 2>&1 || status=1
+        echo "$ranks ranks: $(grep 'random scripts' "$work/differential.$ranks.log" ||
+            echo "see $work/differential.$ranks.log")"
+    done
+    return $status
+}
+
 case ${1:-} in
+differential) differential "${2:-100}" ;;
 fuzz) fuzz "${2:-300}" ;;
 sanitizers) sanitizers ;;
 valgrind) valgrind_ ;;
 fpe) fpe ;;
 *)
-    sed -n '3,11s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,12s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

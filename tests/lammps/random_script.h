@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_TESTS_RANDOM_SCRIPT_H
+#define EEPA_TESTS_RANDOM_SCRIPT_H
+
+#include "packing.h"
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace eepa_test {
+
+/// A small problem out of this package's features, drawn by a seed: law, coefficients, walls, their motion,
+/// particles, and what happens between runs. To have a new feature tested by every comparison, add it to one of
+/// the functions below that draw.
+class RandomScript {
+ public:
+  /// A run and what the user does after it, before the next one.
+  struct Stage {
+    int steps;
+    std::string then;
+  };
+
+  explicit RandomScript(unsigned seed) : generator_(seed)
+  {
+    draw_particles();
+    draw_law();
+    draw_walls();
+    for (int k = 1 + number(2); k >= 0; k--) stages.push_back({30 + number(50), event()});
+  }
+
+  std::vector<Sphere> spheres;
+  std::string pair;        ///< pair_style and pair_coeff; a restart file has them
+  std::string fixes;       ///< walls and gravity, without the integrator
+  std::string boundary;    ///< of the box, that is [-half, half] in each direction
+  double half = 0.0;
+  std::vector<std::string> walls;    ///< IDs of the wall fixes
+  std::vector<Stage> stages;
+
+  std::string text() const
+  {
+    std::string all = "boundary " + boundary + "\n" + pair + "\n" + fixes + "\n";
+    for (const auto &stage : stages)
+      all += "run " + std::to_string(stage.steps) + "\n" + stage.then + "\n";
+    return all;
+  }
+
+ private:
+  std::mt19937 generator_;
+  bool linear_ = true;
+  std::string style_, rolling_;
+
+  int number(int below) { return static_cast<int>(generator_() % static_cast<unsigned>(below)); }
+  bool chance(int percent) { return number(100) < percent; }
+  double between(double low, double high)
+  {
+    return low + (high - low) * 0.5 * (1.0 + uniform(generator_));
+  }
+  static std::string word(double value)
+  {
+    char text[32];
+    std::snprintf(text, sizeof(text), " %.6g", value);
+    return text;
+  }
+
+  void draw_particles()
+  {
+    Packing packing;
+    packing.side = 4 + number(2);
+    packing.speed = between(0.2, 2.0);
+    packing.types = 1 + number(2);
+    packing.polydisperse = chance(50);
+    spheres = packing.spheres(generator_());
+    half = packing.half();
+  }
+
+  void draw_law()
+  {
+    linear_ = chance(60);
+    style_ = linear_ ? "linear" : "plateau";
+    if (chance(50)) style_ += " scale" + word(between(0.5, 2.0));
+    exponent_ = linear_ && chance(30) ? between(1.0, 1.8) : 1.0;
+    if (exponent_ > 1.0) style_ += " exponent" + word(exponent_);
+    if (chance(30)) style_ += " limit_damping yes";
+    style_ += " dtcheck off";
+    const int kind = number(3);
+    rolling_ = kind == 0 ? "" : kind == 1 ? "constant" : "sds";
+    dashpot_ = number(3);
+    pair = "pair_style gran/eepa " + style_;
+    pair += "\npair_coeff * *" + coefficients();
+    if (chance(50)) pair += "\npair_coeff 2 2" + coefficients();
+    if (chance(30)) pair += "\npair_coeff 1 2" + coefficients();
+  }
+
+  std::string coefficients()
+  {
+    const double k1 = between(0.5e4, 1.5e4);
+    const double k2 = k1 * (linear_ ? between(1.0, 4.0) : between(2.0, 3.0));
+    std::string words = word(k1) + word(k2) + word(chance(70) ? between(0.0, 1e4) : 0.0) +
+        word(chance(50) ? -between(0.0, 5.0) : 0.0) + word(chance(80) ? between(0.0, 1.0) : 0.0);
+    if (exponent_ > 1.0 || chance(40)) words += " kt" + word(between(0.0, k1));
+    if (dashpot_ == 1) words += " restitution" + word(between(0.1, 1.0));
+    if (dashpot_ == 2) words += " viscous" + word(between(0.0, 10.0)) + word(between(0.0, 10.0));
+    if (rolling_ == "constant") words += " rolling constant" + word(between(0.0, 0.2));
+    if (rolling_ == "sds")
+      words += " rolling sds" + word(between(0.0, 5e3)) + word(between(0.0, 5.0)) +
+          word(between(0.0, 0.3));
+    return words;
+  }
+
+  void draw_walls()
+  {
+    const std::string lo = exact(-half), hi = exact(half);
+    boundary = "p p p";
+    if (chance(60))
+      fixes += "fix gravity all gravity" + word(between(1.0, 50.0)) + " vector 0.3 0.1 -1\n";
+    const int kind = number(4);
+    if (kind == 1) {
+      boundary = "p p f";
+      add_wall("zplane " + lo + " " + hi, motion("z"));
+    } else if (kind == 2) {
+      boundary = "f f f";
+      add_wall("xplane " + lo + " " + hi, motion("x"));
+      add_wall("yplane " + lo + " " + hi, chance(50) ? "" : motion("y"));
+      add_wall("zplane " + lo + " NULL", "");
+      add_wall("zplane NULL " + hi,
+               chance(50) ? " load" + word(-between(100.0, 2000.0)) + " mass" +
+                       word(between(5.0, 50.0)) + " damping" + word(between(0.0, 100.0))
+                          : motion("z"));
+    } else if (kind == 3) {
+      boundary = "f f p";
+      const double radius = 1.1 * half;
+      std::vector<Sphere> inside;
+      for (const auto &s : spheres)
+        if (std::hypot(s.x.x(), s.x.y()) + s.radius < radius + 0.05) inside.push_back(s);
+      spheres = inside;
+      add_wall("zcylinder" + word(radius), chance(50) ? "" : motion("z"));
+    }
+  }
+
+  void add_wall(const std::string &surface, const std::string &motion)
+  {
+    walls.push_back("wall" + std::to_string(walls.size() + 1));
+    fixes += "fix " + walls.back() + " all wall/gran/eepa " + style_ + " coeff" + coefficients() +
+        " wall " + surface + motion + (chance(30) ? " contacts" : "") + "\n";
+  }
+
+  /// \param along  the axis of planes, or that of a cylinder
+  std::string motion(const std::string &along)
+  {
+    switch (number(4)) {
+      case 0:
+        return " wiggle " + along + word(between(0.0, 0.03)) + word(between(0.02, 0.1));
+      case 1: {
+        std::string words = " velocity";
+        for (const char *axis : {"x", "y", "z"})
+          words += axis == along ? word(between(-1.0, 1.0)) : " 0.5";
+        return words;
+      }
+      case 2:
+        return " shear " + std::string(along == "x" ? "y" : "x") + word(between(-2.0, 2.0));
+      default:
+        return "";
+    }
+  }
+
+  std::string event()
+  {
+    switch (number(6)) {
+      case 0:
+        return "velocity all set 0.3 -0.2 0.1 sum yes units box";
+      case 1:
+        return "pair_coeff * *" + coefficients();
+      case 2:
+        return "group gone id 3:60:7\ndelete_atoms group gone compress no\ngroup gone delete";
+      case 3:
+        return "run 0 post no";
+      default:
+        return "";
+    }
+  }
+
+  double exponent_ = 1.0;
+  int dashpot_ = 0;
+};
+
+}    // namespace eepa_test
+
+#endif
