@@ -20,7 +20,7 @@ using namespace eepa_test;
 
 namespace {
 
-// Rounding grows to 1e-13 in these; histories that set-ups change, to 1e-5 and more.
+// Rounding grows to 1e-12 in these; histories that set-ups change, to 1e-5 and more.
 constexpr double tolerance = 1e-9;
 
 /// How a script is run.
