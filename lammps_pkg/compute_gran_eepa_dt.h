@@ -10,6 +10,10 @@ ComputeStyle(gran/eepa/dt,ComputeGranEepaDt);
 
 #include "compute.h"
 
+#include "particle_sizes.h"
+
+#include <vector>
+
 namespace LAMMPS_NS {
 
 /// The largest stable time step over all contacts of gran/eepa, walls included.
@@ -18,6 +22,12 @@ class ComputeGranEepaDt : public Compute {
   ComputeGranEepaDt(class LAMMPS *, int, char **);
   void init() override;
   double compute_scalar() override;
+
+ private:
+  std::vector<AnnouncedParticles> announced;
+  bool warned = false;    // that nothing is there yet
+
+  void parse_particles(int narg, char **arg, int iarg);
 };
 
 }    // namespace LAMMPS_NS

@@ -7,8 +7,10 @@
 #include "modify.h"
 #include "my_page.h"
 #include "neighbor.h"
+#include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 using namespace LAMMPS_NS;
@@ -213,6 +215,7 @@ void ContactHistory::post_neighbor()
   list_ids.assign(atom->tag, atom->tag + nall_neigh);
   std::iota(place_in_list.begin(), place_in_list.begin() + nlocal_neigh, 0);
   if (just_restarted) warn_of_lost_histories(stored);
+  if (radii_change) remember_sizes();
 }
 
 /// A new particle may have the ID of one that is gone: it has no history with anybody. A list of
@@ -220,12 +223,16 @@ void ContactHistory::post_neighbor()
 /// are new.
 void ContactHistory::forget_partners_with_new_ids()
 {
+  new_here.clear();
   std::vector<tagint> fresh;
   for (int i = 0; i < atom->nlocal + atom->nghost; i++)
     if (owner[i] == 0) fresh.push_back(atom->tag[i]);
   if (fresh.empty()) return;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (owner[i] == 0) owner[i] = atom->tag[i];
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (owner[i] != 0) continue;
+    owner[i] = atom->tag[i];
+    new_here.push_back(i);
+  }
   std::sort(fresh.begin(), fresh.end());
   for (int i = 0; i < atom->nlocal; i++) {
     int kept = 0;
@@ -238,6 +245,48 @@ void ContactHistory::forget_partners_with_new_ids()
     }
     npartner[i] = kept;
   }
+}
+
+/* ---------------------------------------------------------------------- particles that grow */
+
+int ContactHistory::setmask()
+{
+  return FixNeighHistory::setmask() | FixConst::POST_INTEGRATE;
+}
+
+void ContactHistory::watch_radii(bool change)
+{
+  radii_change = change;
+  force_reneighbor = change ? 1 : 0;    // LAMMPS then asks for next_reneighbor in every step
+  next_reneighbor = -1;
+}
+
+void ContactHistory::remember_sizes()
+{
+  listed_radius.assign(atom->radius, atom->radius + atom->nlocal);
+  listed_position.resize(atom->nlocal);
+  for (int i = 0; i < atom->nlocal; i++) std::copy_n(atom->x[i], 3, listed_position[i].begin());
+}
+
+/// LAMMPS makes a new list when a particle has moved by half the skin; what it has grown counts
+/// like that. Positions are those of this step, radii those of the step before: they will grow
+/// once more before the forces, as much as they did in a step on average.
+void ContactHistory::post_integrate()
+{
+  if (!radii_change) return;
+  const double steps = std::max(1, neighbor->ago);
+  int mine = 0, any = 0;
+  for (int i = 0; i < std::min(atom->nlocal, static_cast<int>(listed_radius.size())); i++) {
+    double way_squared = 0.0;
+    for (int k = 0; k < 3; k++) {
+      const double way = atom->x[i][k] - listed_position[i][k];
+      way_squared += way * way;
+    }
+    const double grown = std::max(0.0, atom->radius[i] - listed_radius[i]);
+    mine |= std::sqrt(way_squared) + grown * (1.0 + 1.0 / steps) > 0.5 * neighbor->skin;
+  }
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any) next_reneighbor = update->ntimestep;
 }
 
 /* ---------------------------------------------------------------------- going with a particle */

@@ -6,6 +6,7 @@
 
 #include <eepa/parameters.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -54,7 +55,17 @@ class ContactHistory : public FixNeighHistory {
   /// To be called in an init. Collective.
   void go_on_with(const eepa::LawSettings &);
 
+  /// Whether radii change in mid-run: neighbour lists are then made anew as soon as a particle has
+  /// moved and grown by half the skin. To be called in an init.
+  void watch_radii(bool);
+
+  /// The particles here that the present neighbour list is the first one of, by local index: those
+  /// that a fix inserted in mid-run, and all of a first run. Valid while the list is.
+  const std::vector<int> &newcomers() const { return new_here; }
+
+  int setmask() override;
   void init() override;
+  void post_integrate() override;
   void pre_exchange() override;
   void post_neighbor() override;
   void post_run() override;
@@ -81,6 +92,7 @@ class ContactHistory : public FixNeighHistory {
   void forget_partners_with_new_ids();
   void follow_particles();
   void reserve_exchange();
+  void remember_sizes();
   void warn_of_lost_histories(bigint stored);
   std::string what_does_not_fit() const;
 
@@ -100,8 +112,12 @@ class ContactHistory : public FixNeighHistory {
 
   // ID of the particle that a list of partners belongs to, 0 for a new particle; ghosts too
   std::vector<tagint> owner;
-  std::vector<int> place_in_list;     // of a particle when the neighbour list was made, -1: new
-  std::vector<tagint> list_ids;       // of particles and ghosts, by their place in the list
+  std::vector<int> place_in_list;    // of a particle when the neighbour list was made, -1: new
+  std::vector<tagint> list_ids;      // of particles and ghosts, by their place in the list
+  std::vector<int> new_here;         // see newcomers()
+  bool radii_change = false;
+  std::vector<double> listed_radius;    // where radii change: when the list was made
+  std::vector<std::array<double, 3>> listed_position;
   bool partners_are_newest = true;    // and not what stands beside the neighbour list
   bool list_is_old = true;            // particles may have moved to other places since
 

@@ -141,11 +141,6 @@ namespace {
     return text;
   }
 
-  [[noreturn]] void refuse_value(const std::string &name, double value, const std::string &allowed)
-  {
-    refuse(name + " = " + brief(value) + " is not allowed: it must be " + allowed);
-  }
-
   /// An enumerator that a restart file stored; a cast of any other number is undefined.
   template <class Enum> Enum enumerator(double stored, Enum last, const char *what)
   {
@@ -163,6 +158,11 @@ namespace {
   }
 
 }    // namespace
+
+void refuse_value(const std::string &name, double value, const std::string &allowed)
+{
+  refuse(name + " = " + brief(value) + " is not allowed: it must be " + allowed);
+}
 
 double parse_number(const std::string &name, const std::string &word)
 {
@@ -195,9 +195,12 @@ std::size_t parse_style(const Words &words, std::size_t first, const std::string
       settings.limit_damping = parse_switch(key, reader.word(key));
     } else if (key == "dtcheck") {
       style.time_step_check = parse_check(reader.word(key));
+    } else if (key == "largest") {
+      style.largest_diameter = reader.number("largest d");
+      if (style.largest_diameter <= 0.0) refuse_value("largest d", style.largest_diameter, "> 0");
     } else {
       refuse("keyword '" + key +
-             "' is unknown: it must be scale, exponent, limit_damping or dtcheck");
+             "' is unknown: it must be scale, exponent, limit_damping, dtcheck or largest");
     }
   }
   const Findings found = validate(settings);
@@ -319,7 +322,8 @@ std::array<double, packed_style_size> pack(const StyleArguments &style)
           static_cast<double>(s.scaled),
           s.reference_diameter,
           static_cast<double>(s.limit_damping),
-          static_cast<double>(style.time_step_check)};
+          static_cast<double>(style.time_step_check),
+          style.largest_diameter};
 }
 
 StyleArguments unpack_style(const std::array<double, packed_style_size> &n)
@@ -334,7 +338,9 @@ StyleArguments unpack_style(const std::array<double, packed_style_size> &n)
   style.settings.reference_diameter = n[4];
   style.settings.limit_damping = n[5] != 0.0;
   style.time_step_check = enumerator(n[6], TimeStepCheck::error, "dtcheck");
-  const Findings found = validate(style.settings);
+  style.largest_diameter = n[7];
+  Findings found = validate(style.settings);
+  if (!(n[7] >= 0.0 && std::isfinite(n[7]))) found.errors.push_back("largest d = " + exact(n[7]));
   if (!found.errors.empty()) refuse("the restart file is damaged: " + joined(found.errors));
   return style;
 }

@@ -23,10 +23,12 @@ enum class TimeStepCheck { off, warn, error };
 struct StyleArguments {
   LawSettings settings;
   TimeStepCheck time_step_check = TimeStepCheck::warn;
+  /// that particles may grow to in a run [length]; 0 where they do not grow. Walls need none.
+  double largest_diameter = 0.0;
 };
 
 /// Reads `plateau|linear [scale d_ref] [exponent n] [limit_damping yes|no]
-/// [dtcheck warn|error|off]` from words[first] on.
+/// [dtcheck warn|error|off] [largest d]` from words[first] on.
 /// \param stop  a word that ends the arguments, or "" when they go to the end
 /// \return index of the first word not read
 /// \throw std::invalid_argument naming argument, value and what is allowed
@@ -68,6 +70,10 @@ struct LoadArguments {
 std::size_t parse_load(const Words &words, std::size_t first, const Words &others,
                        LoadArguments &load);
 
+/// The message of a number that is not allowed, as all of this package have it.
+/// \throw std::invalid_argument always
+[[noreturn]] void refuse_value(const std::string &name, double value, const std::string &allowed);
+
 /// Reads a finite number.
 /// \throw std::invalid_argument naming `name` and the word
 double parse_number(const std::string &name, const std::string &word);
@@ -79,7 +85,7 @@ void require_valid(const Parameters &parameters, const LawSettings &settings, Wo
 /// The words that parse_parameters() reads back to the same parameters, to the last bit.
 std::string to_words(const Parameters &parameters);
 
-constexpr std::size_t packed_style_size = 7;
+constexpr std::size_t packed_style_size = 8;
 constexpr std::size_t packed_parameters_size = 16;
 
 /// Plain numbers for restart files, the format's version among the style's.

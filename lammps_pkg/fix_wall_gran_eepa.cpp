@@ -287,9 +287,14 @@ void FixWallGranEepa::reset_dt()
   dt = update->dt;
 }
 
-TimeStepBound FixWallGranEepa::largest_time_step()
+TimeStepBound FixWallGranEepa::largest_time_step(const std::vector<AnnouncedParticles> &announced)
 {
   TimeStepBound bound = {contact_time_step(), std::string("fix ") + id};
+  for (const AnnouncedParticles &come : announced)
+    bound.time_step =
+        std::min(bound.time_step,
+                 eepa::largest_time_step(eepa::sphere_mass(come.smallest, come.density),
+                                         eepa::largest_stiffness(coefficients, come.smallest)));
   if (motion == Motion::load) bound.time_step = std::min(bound.time_step, platen_time_step());
   return bound;
 }

@@ -13,7 +13,7 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 #include "contact_masses.h"
 #include "eepa_commands.h"
 #include "energy_ledger.h"
-#include "pair_gran_eepa.h"    // TimeStepBound
+#include "particle_sizes.h"
 #include "platen.h"
 #include "wall_surface.h"
 
@@ -53,8 +53,9 @@ class FixWallGranEepa : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  /// The largest stable time step of the contacts with this wall. Collective.
-  TimeStepBound largest_time_step();
+  /// The largest stable time step of the contacts with this wall, those of particles that are still
+  /// to come with them. Collective.
+  TimeStepBound largest_time_step(const std::vector<AnnouncedParticles> &announced = {});
   /// This rank's energies; all zero unless a compute gran/eepa/energy existed at the last init.
   const EnergyLedger &energy_ledger() const { return ledger; }
 

@@ -7,7 +7,6 @@
 #include "contact_history.h"
 
 #include <eepa/mixing.h>
-#include <eepa/time_step.h>
 
 #include "atom.h"
 #include "citeme.h"
@@ -227,50 +226,7 @@ void PairGranEepa::init_history()
         "use delete_atoms with compress no, and no reset_atoms id",
         style_name);
   fix_history->go_on_with(style.settings);
-}
-
-void PairGranEepa::init_radii()
-{
-  const int n = atom->ntypes;
-  std::vector<double> dynamic(n + 1, 0.0), frozen(n + 1, 0.0);
-  // particles that fix pour and fix deposit will insert
-  for (const char *inserting : {"^pour", "^deposit"}) {
-    for (auto *fix : modify->get_fix_by_style(inserting)) {
-      for (int itype = 1; itype <= n; itype++) {
-        int dim = itype;
-        const auto *radius = static_cast<double *>(fix->extract("radius", dim));
-        if (radius) dynamic[itype] = std::max(dynamic[itype], *radius);
-      }
-    }
-  }
-  for (int i = 0; i < atom->nlocal; i++) {
-    std::vector<double> &radii = (atom->mask[i] & masses.freeze_groupbit()) ? frozen : dynamic;
-    radii[atom->type[i]] = std::max(radii[atom->type[i]], atom->radius[i]);
-  }
-  max_radius_dynamic.assign(n + 1, 0.0);
-  max_radius_frozen.assign(n + 1, 0.0);
-  MPI_Allreduce(dynamic.data(), max_radius_dynamic.data(), n + 1, MPI_DOUBLE, MPI_MAX, world);
-  MPI_Allreduce(frozen.data(), max_radius_frozen.data(), n + 1, MPI_DOUBLE, MPI_MAX, world);
-  warn_of_narrow_box();
-}
-
-void PairGranEepa::warn_of_narrow_box()
-{
-  if (narrow_box_warned) return;
-  const double largest = 2.0 *
-      std::max(*std::max_element(max_radius_dynamic.begin(), max_radius_dynamic.end()),
-               *std::max_element(max_radius_frozen.begin(), max_radius_frozen.end()));
-  const int periodic[] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
-  for (int dim = 0; dim < domain->dimension; dim++) {
-    if (!periodic[dim] || domain->prd[dim] >= 2.0 * largest) continue;
-    narrow_box_warned = true;
-    if (comm->me == 0)
-      error->warning(FLERR,
-                     "{}: the box is {} wide along {}, less than two of the largest diameters, {}: "
-                     "LAMMPS keeps one history for two particles that touch through two images",
-                     style_name, domain->prd[dim], "xyz"[dim], largest);
-    return;
-  }
+  fix_history->watch_radii(radii_may_change(modify));
 }
 
 double PairGranEepa::init_one(int i, int j)
@@ -326,49 +282,7 @@ void PairGranEepa::choose_classes()
 void PairGranEepa::setup()
 {
   if (masses.has_bodies()) masses.collect_bodies();    // those of ghosts in compute()
-  if (style.time_step_check == eepa::TimeStepCheck::off) return;
-  const TimeStepBound bound = largest_time_step();
-  if (update->dt <= bound.time_step) return;
-  const auto message = fmt::format(
-      "{}: timestep {:.6g} is larger than {:.6g} = 0.2 sqrt(m_min/k_max), which {} sets",
-      style_name, update->dt, bound.time_step, bound.origin);
-  if (style.time_step_check == eepa::TimeStepCheck::error)
-    error->all(FLERR, message);
-  else if (comm->me == 0)
-    error->warning(FLERR, message);
-}
-
-TimeStepBound PairGranEepa::largest_time_step()
-{
-  // the lightest particle need not be the one with the stiffest contact: each meets the largest
-  // partner of every type
-  const int n = atom->ntypes;
-  constexpr double never = std::numeric_limits<double>::infinity();
-  std::vector<double> mine((n + 1) * (n + 1), never), all((n + 1) * (n + 1), never);
-  const double *mass = masses.masses();
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (std::isinf(mass[i])) continue;
-    const int itype = atom->type[i];
-    for (int jtype = 1; jtype <= n; jtype++) {
-      const double partner = std::max(max_radius_dynamic[jtype], max_radius_frozen[jtype]);
-      if (partner == 0.0) continue;
-      const double stiffness = eepa::largest_stiffness(coefficients[pair_index(itype, jtype)],
-                                                       atom->radius[i] + partner);
-      double &least = mine[pair_index(std::min(itype, jtype), std::max(itype, jtype))];
-      least = std::min(least, eepa::largest_time_step(mass[i], stiffness));
-    }
-  }
-  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MIN, world);
-
-  TimeStepBound bound = {never, "no contact"};
-  for (int i = 1; i <= n; i++) {
-    for (int j = i; j <= n; j++) {
-      if (all[pair_index(i, j)] >= bound.time_step) continue;
-      bound.time_step = all[pair_index(i, j)];
-      bound.origin = fmt::format("the pair of types {} {}", i, j);
-    }
-  }
-  return bound;
+  check_time_step();
 }
 
 void PairGranEepa::reset_dt()

@@ -15,6 +15,7 @@ PairStyle(gran/eepa,PairGranEepa);
 #include "eepa_commands.h"
 #include "energy_ledger.h"
 #include "particle_contact.h"
+#include "particle_sizes.h"
 
 #include <eepa/coefficients.h>
 #include <eepa/contact.h>
@@ -31,12 +32,6 @@ struct ContactCensus {
   double ends = 0.0;    ///< contacts of each particle of the group, summed
   double max_overlap_ratio = 0.0;
   double mean_overlap_ratio = 0.0;
-};
-
-/// A bound on the time step and what sets it.
-struct TimeStepBound {
-  double time_step;      ///< [time]; infinity where nothing can touch
-  std::string origin;    ///< "pair of types 1 and 2", "fix top"
 };
 
 /// pair_style gran/eepa: gathers what a contact needs, calls the kernel's law, stores its
@@ -77,8 +72,9 @@ class PairGranEepa : public Pair {
 
   /// Counts the contacts with a partner in the group. Collective.
   ContactCensus census(int groupbit);
-  /// The largest stable time step over all contacts that could form. Collective.
-  TimeStepBound largest_time_step();
+  /// The largest stable time step over all contacts that could form, those of particles that are
+  /// still to come with them. Collective.
+  TimeStepBound largest_time_step(const std::vector<AnnouncedParticles> &announced = {});
   /// This rank's energies; all zero unless a compute gran/eepa/energy existed at the last init.
   const EnergyLedger &energy_ledger() const
   {
@@ -125,6 +121,7 @@ class PairGranEepa : public Pair {
   std::string history_id;    // of fix_history, or of what its place holder keeps the place of
   std::vector<double> max_radius_dynamic, max_radius_frozen;    // by type
   bool plateau_warned = false, narrow_box_warned = false;
+  bool time_step_warned = false;    // in this run
 
   EnergyLedger ledger;
   bool keep_ledger = false;
@@ -154,6 +151,10 @@ class PairGranEepa : public Pair {
   void choose_classes();
   void init_history();
   void init_radii();
+  double largest_partner(int type) const;
+  void check_time_step();
+  void check_newcomers();
+  void check_radii() const;
   void warn_of_narrow_box();
   int history_size() const;
   void warn(const eepa::Words &);

@@ -62,6 +62,10 @@ void PairGranEepa::compute(int eflag, int vflag)
     masses.collect_bodies();
     comm->forward_comm(this);
   }
+  if (neighbor->ago == 0 && update->setupflag == 0) {
+    check_newcomers();
+    check_radii();
+  }
   particles = particle_arrays();
   const bool plain = !evflag && !keep_ledger && update->setupflag == 0 && !bonds_weaken_contacts();
   evaluate = plain ? plainly : fully;

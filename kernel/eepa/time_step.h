@@ -33,6 +33,15 @@ EEPA_FUNCTION double largest_stiffness(const Coefficients &c, double size)
   return scale.stiffness() * (normal > largest ? normal : largest);
 }
 
+/// Mass of a solid sphere.
+/// \param diameter  [length], > 0
+/// \param density  [mass/length^3], > 0
+EEPA_FUNCTION double sphere_mass(double diameter, double density)
+{
+  constexpr double pi = 3.14159265358979323846;
+  return pi / 6.0 * density * diameter * diameter * diameter;
+}
+
 /// Largest stable time step of a contact, 0.2 sqrt(m/k) (article, section 6).
 /// \param mass  the lighter partner's mass, > 0
 /// \param stiffness  largest_stiffness() of the contact [force/length], > 0

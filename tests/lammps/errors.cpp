@@ -220,7 +220,8 @@ TEST_P(ComputeMistake, IsNamed)
 const Mistake compute_mistakes[] = {
     {"compute c all gran/eepa/contacts 5 6",
      "compute gran/eepa/contacts takes no arguments, 2 given: 5"},
-    {"compute c all gran/eepa/dt x", "compute gran/eepa/dt takes no arguments, 1 given: x"},
+    {"compute c all gran/eepa/dt x",
+     "compute gran/eepa/dt: keyword .x. is unknown: it must be particles"},
     {"compute c all gran/eepa/energy x", "compute gran/eepa/energy takes no arguments, 1 given: x"},
     {"group g id 1\ncompute c g gran/eepa/energy",
      "compute gran/eepa/energy: group g is not allowed: it must be all"},

@@ -193,9 +193,12 @@ const Mistake style_mistakes[] = {
     {"linear dtcheck 1", "dtcheck '1' is not allowed: it must be warn, error or off"},
     {"linear scale 1 scale 2", "keyword scale is given twice"},
     {"linear dtcheck off exponent 1 dtcheck off", "keyword dtcheck is given twice"},
-    {"linear 5", "keyword '5' is unknown: it must be scale, exponent, limit_damping or dtcheck"},
+    {"linear largest 0", "largest d = 0 is not allowed: it must be > 0"},
+    {"linear largest big", "largest d = big is not a finite number"},
+    {"linear 5",
+     "keyword '5' is unknown: it must be scale, exponent, limit_damping, dtcheck or largest"},
     {"linear coeff",
-     "keyword 'coeff' is unknown: it must be scale, exponent, limit_damping or dtcheck"},
+     "keyword 'coeff' is unknown: it must be scale, exponent, limit_damping, dtcheck or largest"},
 };
 INSTANTIATE_TEST_SUITE_P(Lines, StyleMistake, testing::ValuesIn(style_mistakes));
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef LMP_EEPA_PARTICLE_SIZES_H
+#define LMP_EEPA_PARTICLE_SIZES_H
+
+#include "modify.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+
+/// A bound on the time step and what sets it.
+struct TimeStepBound {
+  double time_step;      ///< [time]; infinity where nothing can touch
+  std::string origin;    ///< "pair of types 1 and 2", "fix top"
+};
+
+/// Particles that are not there yet, as a user tells of them.
+struct AnnouncedParticles {
+  int type;
+  double smallest, largest;    ///< diameters [length]
+  double density;              ///< [mass/length^3]
+};
+
+/// Whether a fix may change radii in mid-run.
+inline bool radii_may_change(Modify *modify)
+{
+  return !modify->get_fix_by_style("^adapt").empty() || !modify->get_fix_by_style("^set$").empty();
+}
+
+}    // namespace LAMMPS_NS
+
+#endif
