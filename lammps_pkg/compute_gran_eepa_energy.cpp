@@ -31,8 +31,7 @@ ComputeGranEepaEnergy::~ComputeGranEepaEnergy()
 
 void ComputeGranEepaEnergy::init()
 {
-  if (find_eepa_pairs(force).empty() && find_eepa_walls(modify).empty())
-    error->all(FLERR, "compute gran/eepa/energy needs pair_style gran/eepa or fix wall/gran/eepa");
+  require_contacts_of_eepa("compute gran/eepa/energy", lmp);
 }
 
 void ComputeGranEepaEnergy::compute_vector()

@@ -7,6 +7,7 @@
 #include "modify.h"
 #include "my_page.h"
 #include "neighbor.h"
+#include "pair.h"
 #include "update.h"
 
 #include <algorithm>
@@ -34,6 +35,21 @@ class OtherCreator {
  private:
   Modify::FixCreator &current;
   const Modify::FixCreator lammps_own;
+};
+}    // namespace
+
+namespace {
+/// Gives a variable another value as long as it lives.
+class Meanwhile {
+ public:
+  Meanwhile(int &of, int value) : variable(of), before(of) { variable = value; }
+  ~Meanwhile() { variable = before; }
+  Meanwhile(const Meanwhile &) = delete;
+  Meanwhile &operator=(const Meanwhile &) = delete;
+
+ private:
+  int &variable;
+  const int before;
 };
 }    // namespace
 
@@ -210,7 +226,10 @@ void ContactHistory::post_neighbor()
 {
   forget_partners_with_new_ids();
   const auto stored = std::accumulate(npartner, npartner + atom->nlocal, bigint{0});
-  FixNeighHistory::post_neighbor();
+  {
+    const Meanwhile keep_those_that_part(pair->beyond_contact, parting_contacts ? 1 : 0);
+    FixNeighHistory::post_neighbor();
+  }
   list_is_old = false;
   list_ids.assign(atom->tag, atom->tag + nall_neigh);
   std::iota(place_in_list.begin(), place_in_list.begin() + nlocal_neigh, 0);

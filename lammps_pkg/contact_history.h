@@ -64,6 +64,11 @@ class ContactHistory : public FixNeighHistory {
   const std::vector<int> &newcomers() const { return new_here; }
 
   int setmask() override;
+  /// Whether a contact that has parted when a neighbour list is made is kept until the next force
+  /// call, which the energy ledger needs. LAMMPS's fix does so where the pair style says that its
+  /// forces reach beyond contact, but then compute fabric and rattlers/atom refuse the style.
+  void keep_parting_contacts(bool keep) { parting_contacts = keep; }
+
   void init() override;
   void post_integrate() override;
   void pre_exchange() override;
@@ -118,6 +123,7 @@ class ContactHistory : public FixNeighHistory {
   bool radii_change = false;
   std::vector<double> listed_radius;    // where radii change: when the list was made
   std::vector<std::array<double, 3>> listed_position;
+  bool parting_contacts = false;
   bool partners_are_newest = true;    // and not what stands beside the neighbour list
   bool list_is_old = true;            // particles may have moved to other places since
 

@@ -2,6 +2,7 @@
 #ifndef LMP_EEPA_CONTACT_SLICE_H
 #define LMP_EEPA_CONTACT_SLICE_H
 
+#include "atom_losses.h"
 #include "energy_ledger.h"
 
 #include <eepa/vector.h>
@@ -30,6 +31,13 @@ struct DeferredForce {
   eepa::Vec3 force, torque;    ///< on j
 };
 
+/// What a contact dissipates at a particle that another slice writes.
+struct DeferredLoss {
+  int atom;
+  eepa::Dissipation of_contact;
+  double share;
+};
+
 /// A part of the neighbour list and of the atoms, worked through by one thread; all of it where
 /// there are no threads.
 struct ContactSlice {
@@ -44,6 +52,8 @@ struct ContactSlice {
   std::vector<int> class_begin;                  // of each class of coefficients among the sorted
   std::vector<DeferredForce> deferred;           // forces on atoms of other slices
   EnergyLedger ledger;                           // of this force call
+  AtomLosses *atom_losses = nullptr;             // where they are kept
+  std::vector<DeferredLoss> deferred_losses;
   int deep_i = -1, deep_j = -1;                  // a contact deeper than a radius, if there is one
 
   double memory_usage() const
@@ -58,6 +68,20 @@ struct ContactSlice {
   }
   /// Whether another slice writes it; else it is a ghost whose owner computes this contact too.
   bool defers(int atom) const { return atom < deferrable; }
+
+  /// Books what the contact of i and j dissipated.
+  /// \param factor  that special_bonds weakens it by
+  /// \param share  of it that is this rank's to sum up
+  void book(int i, int j, const eepa::Dissipation &lost, double factor, double share)
+  {
+    ledger.dissipated.add(lost, factor * share);
+    if (!atom_losses) return;
+    atom_losses->add(i, lost, 0.5 * factor);
+    if (writes(j))
+      atom_losses->add(j, lost, 0.5 * factor);
+    else if (defers(j))
+      deferred_losses.push_back({j, lost, 0.5 * factor});
+  }
 
   void note_depth(int i, int j, double overlap, double smaller_radius)
   {

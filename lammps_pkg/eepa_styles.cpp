@@ -4,6 +4,7 @@
 #include "compute_gran_eepa_contacts.h"
 #include "compute_gran_eepa_dt.h"
 #include "compute_gran_eepa_energy.h"
+#include "compute_gran_eepa_energy_atom.h"
 #include "fix_wall_gran_eepa.h"
 #include "pair_gran_eepa.h"
 #ifdef _OPENMP
@@ -44,6 +45,8 @@ const std::vector<EepaStyle> &LAMMPS_NS::eepa_styles()
        maker<Compute, ComputeGranEepaContacts>},
       {"compute", "gran/eepa/energy", "stored and dissipated energies", nullptr, nullptr,
        maker<Compute, ComputeGranEepaEnergy>},
+      {"compute", "gran/eepa/energy/atom", "dissipated energies of each particle", nullptr, nullptr,
+       maker<Compute, ComputeGranEepaEnergyAtom>},
       {"compute", "gran/eepa/dt", "largest stable time step", nullptr, nullptr,
        maker<Compute, ComputeGranEepaDt>},
   };

@@ -5,7 +5,9 @@
 #include "fix_wall_gran_eepa.h"
 #include "pair_gran_eepa.h"
 
+#include "error.h"
 #include "force.h"
+#include "lammps.h"
 #include "modify.h"
 
 #include <vector>
@@ -32,6 +34,19 @@ inline std::vector<FixWallGranEepa *> find_eepa_walls(Modify *modify)
   for (auto *fix : modify->get_fix_list())
     if (auto *wall = dynamic_cast<FixWallGranEepa *>(fix)) found.push_back(wall);
   return found;
+}
+
+/// Stops where a compute of energies has no contacts to tell of, or other ones than act.
+inline void require_contacts_of_eepa(const char *compute, LAMMPS *lmp)
+{
+  const bool pairs = !find_eepa_pairs(lmp->force).empty();
+  if (!pairs && find_eepa_walls(lmp->modify).empty())
+    lmp->error->all(FLERR, "{} needs pair_style gran/eepa or fix wall/gran/eepa", compute);
+  if (pairs && utils::strmatch(lmp->force->pair_style, "^hybrid/scaled"))
+    lmp->error->all(FLERR,
+                    "{} can not be used with pair_style hybrid/scaled, which scales forces without "
+                    "gran/eepa knowing by how much; use hybrid or hybrid/overlay",
+                    compute);
 }
 
 }    // namespace LAMMPS_NS

@@ -255,7 +255,9 @@ void FixWallGranEepa::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "fix {} wall/gran/eepa can not be used with run_style respa", id);
   masses.init("fix wall/gran/eepa");
+  const bool kept = keep_ledger;
   keep_ledger = EnergyLedger::wanted(modify);
+  ledger_starts = keep_ledger && (ledger_starts || !kept);
   radii_may_change = !modify->get_fix_by_style("^adapt").empty() ||
       !modify->get_fix_by_style("^set$").empty();
   for (const auto &name : velocity_variable) require_equal_style("velocity", name);

@@ -139,6 +139,9 @@ class FixWallGranEepa : public Fix {
 
   EnergyLedger ledger;
   bool keep_ledger = false;
+  bool ledger_starts = false;    // with the next step: no ledger has booked the one before
+  bool after_setup = false;      // whether the last force call was a set-up's
+  std::vector<class ComputeGranEepaEnergyAtom *> atom_losses;    // who wants them by particle
   double power = 0.0;    // of the surfaces on this rank's particles, at the last force call
   double push = 0.0;     // of the platen on them along its axis, likewise
 
@@ -164,6 +167,7 @@ class FixWallGranEepa : public Fix {
   /// The largest stable time step of the platen on the contacts that it has now.
   double platen_time_step() const;
   void check_platen();
+  void book(int i, const eepa::Dissipation &);
   void complain(const std::string &message);
   void stop_at_overlap(int i, double overlap) const;
   template <class ContactLaw> void contact_loop();

@@ -4,6 +4,8 @@
 
 #include "fix_wall_gran_eepa.h"
 
+#include "compute_gran_eepa_energy_atom.h"
+
 #include <eepa/dispatch.h>
 
 #include "atom.h"
@@ -142,8 +144,12 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   ledger.elastic = eepa::StoredEnergy();
   const double power_before = power;
   power = 0.0;
+  atom_losses.clear();
+  if (keep_ledger) atom_losses = ComputeGranEepaEnergyAtom::find(modify);
   (this->*loop)();
   const bool step = update->setupflag == 0;
+  after_setup = !step;
+  if (step) ledger_starts = false;
   if (motion == Motion::load) {
     const int dim = surfaces.axis();
     const double push_before = push;
@@ -215,8 +221,9 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
   eepa::Contact contact;
   for (const int i : candidates) {
     if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
-    if (!(atom->mask[i] & groupbit)) {
-      // one that leaves the group in contact must not find its history when it comes back
+    // one that leaves the group in contact must not find its history when it comes back
+    const bool member = atom->mask[i] & groupbit;
+    if (!member && !keep_ledger) {
       std::fill_n(history[i], n_values, 0.0);
       continue;
     }
@@ -224,9 +231,12 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
     for (int surface = 0; surface < n_surfaces; surface++) {
       double *values = history[i] + static_cast<std::ptrdiff_t>(surface) * ContactLaw::history_size;
       const bool known = values[eepa::MAX_OVERLAP] != 0.0;
-      if (!known && !surfaces.reaches(surface, x[i], radius[i])) continue;
+      // a set-up leaves no history: who touched then?
+      const bool unknown_is_new = !(keep_ledger && after_setup && store);
+      if (!known && (!member || (unknown_is_new && !surfaces.reaches(surface, x[i], radius[i]))))
+        continue;
       const SurfacePoint point = surfaces.nearest(surface, x[i], radius[i]);
-      if (point.overlap <= 0.0 && !known) continue;
+      if (point.overlap <= 0.0 && !known && unknown_is_new) continue;
 
       contact.normal = point.normal;
       contact.overlap = point.overlap;
@@ -244,10 +254,12 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
           eepa::twist_of_pair<double>(contact.normal, contact.angular_velocity, time_step);
 
       eepa::History state = eepa::load_history<Layout>(values);
-      if (point.overlap <= 0.0) {
-        if (keep_ledger && store)
-          ledger.dissipated.add(
-              eepa::dissipation_of_opening<ContactLaw>(coefficients, contact, dt, state), 1.0);
+      const bool touched = known ||
+          (!unknown_is_new && point.overlap + contact.velocity.dot(contact.normal) * dt > 0.0);
+      if (point.overlap <= 0.0 || !member) {
+        if (keep_ledger && touched && (store || !member))
+          book(i, eepa::dissipation_of_opening<ContactLaw>(coefficients, contact, time_step, state,
+                                                           !ledger_starts));
         eepa::store_history<Layout>(eepa::History(), values);
         continue;
       }
@@ -263,10 +275,8 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
         ledger.store(ContactLaw::stored_energy(coefficients, contact.size, contact.overlap, state),
                      1.0);
         if (store)
-          ledger.dissipated.add(eepa::dissipation_of_step<ContactLaw>(coefficients, contact,
-                                                                      response, time_step, !known,
-                                                                      before, state),
-                                1.0);
+          book(i, eepa::dissipation_of_step<ContactLaw>(coefficients, contact, response, time_step,
+                                                        !touched, before, state, !ledger_starts));
       }
       Vec3 turn = -arm * ContactLaw::tangential_moment(response, contact), wall_turn = turn;
       ContactLaw::add_couple(response, contact, turn, wall_turn);
@@ -292,6 +302,12 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
       }
     }
   }
+}
+
+void FixWallGranEepa::book(int i, const eepa::Dissipation &lost)
+{
+  ledger.dissipated.add(lost, 1.0);
+  for (auto *compute : atom_losses) compute->add(i, AtomLosses::by_kind(lost).data());
 }
 
 void FixWallGranEepa::stop_at_overlap(int i, double overlap) const

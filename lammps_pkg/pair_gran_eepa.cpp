@@ -67,7 +67,8 @@ PairGranEepa::PairGranEepa(LAMMPS *lmp) : Pair(lmp), masses(lmp)
   centroidstressflag = CENTROID_NOTAVAIL;
   finitecutflag = 1;
   writedata = 1;
-  comm_forward = 1;    // body masses for fix rigid
+  comm_forward = 1;                      // body masses for fix rigid
+  comm_reverse = AtomLosses::kinds;      // what ghosts dissipated
   single_extra = N_SINGLE;
   svector = new double[N_SINGLE];
 
@@ -178,9 +179,9 @@ void PairGranEepa::init_style()
   dt = update->dt;
   masses.init(style_name);
   init_radii();
+  const bool kept = keep_ledger;
   keep_ledger = EnergyLedger::wanted(modify);
-  // an opening that falls on a rebuild must be booked, so such a contact outlives its end
-  beyond_contact = keep_ledger ? 1 : 0;
+  ledger_starts = keep_ledger && (ledger_starts || !kept);
 
   // one law of rolling and of twisting serves all pairs of types: those without take part with a
   // bound of 0
@@ -202,6 +203,8 @@ void PairGranEepa::init_style()
     }
   }
   init_history();
+  // an opening that falls on a rebuild must be booked, so such a contact outlives its end
+  fix_history->keep_parting_contacts(keep_ledger);
   choose_law();
   coefficient_classes.clear();    // init_one() is still to come
   // last: after an error LAMMPS would keep the request of a pair style that may be gone
@@ -387,6 +390,18 @@ void PairGranEepa::write_data_all(FILE *fp)
       fmt::print(fp, "{} {} {}\n", i, j, eepa::to_words(parameters[pair_index(i, j)]));
 }
 
+/* ---------------------------------------------------------------------- what ghosts dissipated */
+
+int PairGranEepa::pack_reverse_comm(int n, int first, double *buf)
+{
+  return atom_losses.pack(n, first, buf);
+}
+
+void PairGranEepa::unpack_reverse_comm(int n, int *atoms, double *buf)
+{
+  atom_losses.unpack(n, atoms, buf);
+}
+
 /* ---------------------------------------------------------------------- masses of rigid bodies */
 
 int PairGranEepa::pack_forward_comm(int n, int *atoms, double *buf, int /*pbc_flag*/, int * /*pbc*/)
@@ -402,7 +417,7 @@ void PairGranEepa::unpack_forward_comm(int n, int first, double *buf)
 
 double PairGranEepa::memory_usage()
 {
-  double bytes = Pair::memory_usage() + masses.memory_usage() +
+  double bytes = Pair::memory_usage() + masses.memory_usage() + atom_losses.memory_usage() +
       static_cast<double>(parameters.capacity() * sizeof(eepa::Parameters) +
                           coefficients.capacity() * sizeof(eepa::Coefficients));
   for (const ContactSlice &slice : slices) bytes += slice.memory_usage();

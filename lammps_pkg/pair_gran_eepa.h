@@ -10,6 +10,7 @@ PairStyle(gran/eepa,PairGranEepa);
 
 #include "pair.h"
 
+#include "atom_losses.h"
 #include "contact_masses.h"
 #include "contact_slice.h"
 #include "eepa_commands.h"
@@ -58,6 +59,8 @@ class PairGranEepa : public Pair {
 
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
   double memory_usage() override;
   // virtual up to LAMMPS 2025 and gone after it, so without `override`
 #if defined(__clang__)
@@ -125,6 +128,9 @@ class PairGranEepa : public Pair {
 
   EnergyLedger ledger;
   bool keep_ledger = false;
+  bool ledger_starts = false;    // with the next step: no ledger has booked the one before
+  AtomLosses atom_losses;        // of this force call
+  bool keep_atom_losses = false;
 
   // the law's part of a force call, chosen once a run; `fully` also takes set-up calls, tallies
   // energy and virial, keeps the ledger and weakens contacts between bonded particles
@@ -176,8 +182,9 @@ class PairGranEepa : public Pair {
   template <class ContactLaw>
   void evaluate_fully(ContactSlice &, const FoundContact *, int, const eepa::Coefficients &);
   template <class ContactLaw>
-  void book_opening_of(ContactSlice &, int i, int j, const double *values);
+  void book_opening_of(ContactSlice &, int i, int neighbor, const double *values);
   double share_of_pair(int j) const;
+  void hand_over_atom_losses();
   [[noreturn]] void stop_at_overlap(int i, int j) const;
   template <class ContactLaw>
   double single_contact(const eepa::Coefficients &, const eepa::Contact &, const double *values,

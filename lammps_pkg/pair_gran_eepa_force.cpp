@@ -4,6 +4,7 @@
 
 #include "pair_gran_eepa.h"
 
+#include "compute_gran_eepa_energy_atom.h"
 #include "contact_history.h"
 #include "contact_lanes.h"
 #include "contact_status.h"
@@ -15,6 +16,7 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
+#include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "update.h"
@@ -70,6 +72,9 @@ void PairGranEepa::compute(int eflag, int vflag)
   const bool plain = !evflag && !keep_ledger && update->setupflag == 0 && !bonds_weaken_contacts();
   evaluate = plain ? plainly : fully;
   fix_history->force_is_computed();
+  keep_atom_losses = keep_ledger && update->setupflag == 0 &&
+      !ComputeGranEepaEnergyAtom::find(modify).empty();
+  if (keep_atom_losses) atom_losses.start(atom->nlocal + atom->nghost);
   ledger.elastic = eepa::StoredEnergy();
   work_through_list();
   for (auto &slice : slices) {
@@ -78,6 +83,18 @@ void PairGranEepa::compute(int eflag, int vflag)
     ledger.store(slice.ledger.elastic, 1.0);
     ledger.dissipated.add(slice.ledger.dissipated, 1.0);
   }
+  if (keep_atom_losses) hand_over_atom_losses();
+  if (update->setupflag == 0) ledger_starts = false;
+}
+
+void PairGranEepa::hand_over_atom_losses()
+{
+  for (const auto &slice : slices)
+    for (const auto &deferred : slice.deferred_losses)
+      atom_losses.add(deferred.atom, deferred.of_contact, deferred.share);
+  if (force->newton_pair) comm->reverse_comm(this);
+  for (auto *compute : ComputeGranEepaEnergyAtom::find(modify))
+    for (int i = 0; i < atom->nlocal; i++) compute->add(i, atom_losses.row(i));
 }
 
 bool PairGranEepa::bonds_weaken_contacts() const
@@ -173,6 +190,8 @@ constexpr int side_by_side = 1;
 void PairGranEepa::work_through(ContactSlice &slice)
 {
   slice.ledger = EnergyLedger();
+  slice.atom_losses = keep_atom_losses ? &atom_losses : nullptr;
+  slice.deferred_losses.clear();
   slice.deep_i = slice.deep_j = -1;
   const int *ilist = list->ilist;
   const int *numneigh = list->numneigh;
@@ -227,7 +246,7 @@ void PairGranEepa::open_contact(ContactSlice &slice, int i, int place)
   const int size = history_size();
   double *values = fix_history->firstvalue[i] + static_cast<std::ptrdiff_t>(size) * place;
   if (keep_ledger && update->setupflag == 0)
-    (this->*book_opening)(slice, i, list->firstneigh[i][place] & NEIGHMASK, values);
+    (this->*book_opening)(slice, i, list->firstneigh[i][place], values);
   fix_history->firstflag[i][place] = ContactStatus::none;
   // a pair that does not touch has no history, so that a new contact need not ask
   std::fill_n(values, size, 0.0);
@@ -326,12 +345,13 @@ void PairGranEepa::evaluate_fully(ContactSlice &slice, const FoundContact *conta
     if (eflag_either || keep_ledger)
       energy = ContactLaw::stored_energy(c, contact.size, contact.overlap, history);
     if (keep_ledger) {
-      const double share = factor * share_of_pair(j);
-      slice.ledger.store(energy, share);
+      const double share = share_of_pair(j);
+      slice.ledger.store(energy, factor * share);
       if (store)
-        slice.ledger.dissipated.add(eepa::dissipation_of_step<ContactLaw>(
-                                        c, contact, response, time_step, first, before, history),
-                                    share);
+        slice.book(i, j,
+                   eepa::dissipation_of_step<ContactLaw>(c, contact, response, time_step, first,
+                                                         before, history, !ledger_starts),
+                   factor, share);
     }
 
     const Vec3 pair_force = factor * ContactLaw::force_on_i(response, contact);
@@ -359,15 +379,17 @@ double PairGranEepa::share_of_pair(int j) const
 }
 
 template <class ContactLaw>
-void PairGranEepa::book_opening_of(ContactSlice &slice, int i, int j, const double *values)
+void PairGranEepa::book_opening_of(ContactSlice &slice, int i, int neighbor, const double *values)
 {
+  const int j = neighbor & NEIGHMASK;
   eepa::Contact contact;
   const Vec3 offset = particles.at(particles.x, i) - particles.at(particles.x, j);
   gather_contact<true>(particles, i, j, offset, eepa::squared_length<double>(offset), dt, contact);
-  slice.ledger.dissipated.add(eepa::dissipation_of_opening<ContactLaw>(
-                                  coefficients[pair_index(atom->type[i], atom->type[j])], contact,
-                                  dt, eepa::load_history<typename ContactLaw::Layout>(values)),
-                              share_of_pair(j));
+  slice.book(i, j,
+             eepa::dissipation_of_opening<ContactLaw>(
+                 coefficients[pair_index(atom->type[i], atom->type[j])], contact, dt,
+                 eepa::load_history<typename ContactLaw::Layout>(values), !ledger_starts),
+             force->special_lj[sbmask(neighbor)], share_of_pair(j));
 }
 
 void PairGranEepa::stop_at_overlap(int i, int j) const

@@ -56,11 +56,12 @@ namespace detail {
     return power + (0.25 * force / viscous - 0.5 * speed) * force;
   }
   /// What it books for the force of the step before, which was at most `bound`.
-  EEPA_FUNCTION double dashpot_before(double viscous, double bound, double speed)
+  /// \param booked  whether dashpot_now() has booked that one; a set-up's is not
+  EEPA_FUNCTION double dashpot_before(double viscous, double bound, double speed, bool booked)
   {
     if (!(viscous > 0.0)) return 0.0;
     const double force = viscous * speed < bound ? viscous * speed : bound;
-    return (0.5 * speed - 0.25 * force / viscous) * force;
+    return (0.5 * speed - (booked ? 0.25 * force / viscous : 0.0)) * force;
   }
 
   /// Loss of a slider over one step: the spring's trapezoid work less what it stores of it.
@@ -97,7 +98,7 @@ namespace detail {
   template <class ContactLaw>
   EEPA_FUNCTION void book_step_before(const Coefficients &c, const Scale &scale,
                                       const Contact &contact, double time_step, const History &last,
-                                      Dissipation &lost)
+                                      bool booked, Dissipation &lost)
   {
     using Normal = typename ContactLaw::Normal;
     const double normal_velocity = dot(contact.velocity, contact.normal);
@@ -110,11 +111,11 @@ namespace detail {
     const double tension_free = normal.force > 0.0 ? normal.force : 0.0;
     lost.normal_dashpot += time_step *
         dashpot_before(viscous.normal, limited ? tension_free : HUGE_VAL,
-                       std::fabs(normal_velocity));
+                       std::fabs(normal_velocity), booked);
     lost.tangential_dashpot += time_step *
         dashpot_before(viscous.tangential,
                        dashpot_bound(last.tangential_spring, friction_bound(c, normal)),
-                       tangential_velocity(contact, normal_velocity).norm());
+                       tangential_velocity(contact, normal_velocity).norm(), booked);
     if constexpr (ContactLaw::has_rolling) {
       using Rolling = typename ContactLaw::Rolling;
       const double hysteretic = std::fabs(normal.force), radius = contact.effective_radius;
@@ -123,11 +124,11 @@ namespace detail {
         lost.rolling += time_step *
             dashpot_before(Rolling::dashpot(c, scale),
                            dashpot_bound(last.rolling_spring, Rolling::bound(c, hysteretic)),
-                           radius * rate);
+                           radius * rate, booked);
       else
         lost.rolling += time_step *
             dashpot_before(Rolling::dashpot(radius, viscous.root_mass_stiffness),
-                           Rolling::bound(c, radius, hysteretic), rate);
+                           Rolling::bound(c, radius, hysteretic), rate, booked);
     }
     if constexpr (ContactLaw::has_twisting) {
       using Twisting = typename ContactLaw::Twisting;
@@ -135,7 +136,7 @@ namespace detail {
           std::fabs(Twisting::arm(contact.effective_radius, overlap) * twisting_velocity(contact));
       const double limit =
           last.twisting_spring != 0.0 ? HUGE_VAL : Twisting::bound(c, friction_bound(c, normal));
-      lost.twisting += time_step * dashpot_before(viscous.tangential, limit, speed);
+      lost.twisting += time_step * dashpot_before(viscous.tangential, limit, speed, booked);
     }
   }
 }    // namespace detail
@@ -143,11 +144,13 @@ namespace detail {
 /// Dissipation of a contact over the step that evaluate() has just made.
 /// \param before, after  its state before and after evaluate()
 /// \param first  whether the contact formed in this step
+/// \param booked  whether the step before was booked too: not where the ledger starts. A contact
+///        without state, but not the first time here, had a force in a set-up, which books nothing.
 template <class ContactLaw>
 EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Contact &contact,
                                               const Response &response, double time_step,
                                               bool first, const History &before,
-                                              const History &after)
+                                              const History &after, bool booked = true)
 {
   Dissipation lost;
   const Scale scale = contact_scale(c, contact.size);
@@ -160,7 +163,9 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
     if (loaded > contact.overlap) loaded = contact.overlap;
   }
   lost.hysteresis = ContactLaw::Normal::loss(c, scale, loaded, after.max_overlap);
-  if (!first) detail::book_step_before<ContactLaw>(c, scale, contact, time_step, before, lost);
+  if (!first)
+    detail::book_step_before<ContactLaw>(c, scale, contact, time_step, before,
+                                         booked && before.max_overlap != 0.0, lost);
 
   const Dashpots<double> viscous =
       dashpots<typename ContactLaw::Normal>(c, scale, contact.effective_mass, contact.overlap);
@@ -216,16 +221,29 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
 }
 
 /// Dissipation of a contact that has opened: what it still stored, and the last part of dashpots.
-/// \param contact  as it is now, overlap <= 0
+/// \param contact  as it is now, overlap <= 0; > 0 where it was taken away, by a group for instance
 /// \param last  its state after its last step
+/// \param booked  as in dissipation_of_step()
 template <class ContactLaw>
 EEPA_FUNCTION Dissipation dissipation_of_opening(const Coefficients &c, const Contact &contact,
-                                                 double time_step, const History &last)
+                                                 double time_step, const History &last,
+                                                 bool booked = true)
 {
+  using Normal = typename ContactLaw::Normal;
   Dissipation lost;
   const Scale scale = contact_scale(c, contact.size);
-  lost.hysteresis = ContactLaw::Normal::opening_loss(c, scale, last.max_overlap);
-  const Vec3 slip = time_step * tangential_velocity(contact, dot(contact.velocity, contact.normal));
+  const double normal_velocity = dot(contact.velocity, contact.normal);
+  if (contact.overlap > 0.0) {
+    // what it stored one step ago, less the trapezoid work of the force then
+    double overlap = contact.overlap + time_step * normal_velocity;
+    if (overlap < 0.0) overlap = 0.0;
+    lost.hysteresis = Normal::elastic_energy(c, scale, overlap, last.max_overlap) -
+        0.5 * time_step * normal_velocity *
+            Normal::force(c, scale, overlap, last.max_overlap).force;
+  } else {
+    lost.hysteresis = Normal::opening_loss(c, scale, last.max_overlap);
+  }
+  const Vec3 slip = time_step * tangential_velocity(contact, normal_velocity);
   lost.sliding = detail::release_loss(scale.stiffness() * c.kt, last.tangential_spring, slip);
   if constexpr (ContactLaw::Rolling::has_spring)
     lost.rolling = detail::release_loss(scale.stiffness() * c.kr, last.rolling_spring,
@@ -234,7 +252,8 @@ EEPA_FUNCTION Dissipation dissipation_of_opening(const Coefficients &c, const Co
   // its arm has come to nothing: no force, but what was stored
   if constexpr (ContactLaw::Twisting::has_spring)
     lost.twisting = 0.5 * scale.stiffness() * c.kt * last.twisting_spring * last.twisting_spring;
-  detail::book_step_before<ContactLaw>(c, scale, contact, time_step, last, lost);
+  detail::book_step_before<ContactLaw>(c, scale, contact, time_step, last,
+                                       booked && last.max_overlap != 0.0, lost);
   return lost;
 }
 

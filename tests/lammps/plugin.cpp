@@ -149,7 +149,8 @@ TEST(PluginEntry, RegistersEveryStyle)
   lammpsplugin_init(simulation.lammps(), nullptr, reinterpret_cast<void *>(&remember));
   EXPECT_EQ(registered.size(), LAMMPS_NS::eepa_styles().size());
   for (const char *style : {"pair gran/eepa", "fix wall/gran/eepa", "compute gran/eepa/contacts",
-                            "compute gran/eepa/dt"})
+                            "compute gran/eepa/dt", "compute gran/eepa/energy",
+                            "compute gran/eepa/energy/atom"})
     EXPECT_EQ(registered.count(style), 1u) << style;
 }
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef LMP_EEPA_ATOM_LOSSES_H
+#define LMP_EEPA_ATOM_LOSSES_H
+
+#include <eepa/dissipation.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// What the contacts of each particle dissipated in one force call, ghosts included until their
+/// owners have it. Kept only while a compute gran/eepa/energy/atom exists.
+class AtomLosses {
+ public:
+  static constexpr int kinds = 6;
+  using Kinds = std::array<double, kinds>;
+
+  /// In the order of the compute's columns.
+  static Kinds by_kind(const eepa::Dissipation &lost)
+  {
+    return {lost.hysteresis, lost.normal_dashpot, lost.tangential_dashpot,
+            lost.sliding,    lost.rolling,        lost.twisting};
+  }
+
+  void start(int atoms) { lost.assign(static_cast<std::size_t>(atoms) * kinds, 0.0); }
+  void add(int atom, const eepa::Dissipation &of_contact, double share)
+  {
+    const Kinds more = by_kind(of_contact);
+    for (int k = 0; k < kinds; k++) row(atom)[k] += share * more[k];
+  }
+  double *row(int atom) { return lost.data() + static_cast<std::size_t>(atom) * kinds; }
+
+  int pack(int n, int first, double *buf)
+  {
+    std::copy_n(row(first), static_cast<std::size_t>(n) * kinds, buf);
+    return n * kinds;
+  }
+  void unpack(int n, const int *atoms, const double *buf)
+  {
+    for (int m = 0; m < n; m++)
+      for (int k = 0; k < kinds; k++) row(atoms[m])[k] += *buf++;
+  }
+  double memory_usage() const { return static_cast<double>(lost.capacity() * sizeof(double)); }
+
+ private:
+  std::vector<double> lost;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
