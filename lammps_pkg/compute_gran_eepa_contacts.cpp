@@ -2,6 +2,7 @@
 #include "compute_gran_eepa_contacts.h"
 
 #include "find_contact_owners.h"
+#include "run_guards.h"
 
 #include "error.h"
 #include "group.h"
@@ -17,6 +18,7 @@ ComputeGranEepaContacts::ComputeGranEepaContacts(LAMMPS *lmp, int narg, char **a
   if (narg != 3)
     error->all(FLERR, "compute gran/eepa/contacts takes no arguments, {} given: {}", narg - 3,
                arg[3]);
+  require_consistent_units(lmp, "compute gran/eepa/contacts");
   vector_flag = 1;
   size_vector = N_QUANTITIES;
   extvector = -1;

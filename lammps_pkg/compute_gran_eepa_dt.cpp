@@ -3,6 +3,7 @@
 
 #include "eepa_commands.h"
 #include "find_contact_owners.h"
+#include "run_guards.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -25,6 +26,7 @@ ComputeGranEepaDt::ComputeGranEepaDt(LAMMPS *lmp, int narg, char **arg) : Comput
                  arg[iarg]);
     parse_particles(narg, arg, iarg + 1);
   }
+  require_consistent_units(lmp, "compute gran/eepa/dt");
   scalar_flag = 1;
   extscalar = 0;
 }

@@ -2,6 +2,7 @@
 #include "compute_gran_eepa_energy.h"
 
 #include "find_contact_owners.h"
+#include "run_guards.h"
 
 #include "error.h"
 #include "update.h"
@@ -16,6 +17,7 @@ ComputeGranEepaEnergy::ComputeGranEepaEnergy(LAMMPS *lmp, int narg, char **arg) 
   if (narg != 3)
     error->all(FLERR, "compute gran/eepa/energy takes no arguments, {} given: {}", narg - 3,
                arg[3]);
+  require_consistent_units(lmp, "compute gran/eepa/energy");
   if (igroup != 0)
     error->all(FLERR, "compute gran/eepa/energy: group {} is not allowed: it must be all", arg[1]);
   vector_flag = 1;

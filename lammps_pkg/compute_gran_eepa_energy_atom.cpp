@@ -2,6 +2,7 @@
 #include "compute_gran_eepa_energy_atom.h"
 
 #include "find_contact_owners.h"
+#include "run_guards.h"
 
 #include "atom.h"
 #include "error.h"
@@ -20,6 +21,7 @@ ComputeGranEepaEnergyAtom::ComputeGranEepaEnergyAtom(LAMMPS *lmp, int narg, char
   if (narg != 3)
     error->all(FLERR, "compute gran/eepa/energy/atom takes no arguments, {} given: {}", narg - 3,
                arg[3]);
+  require_consistent_units(lmp, "compute gran/eepa/energy/atom");
   peratom_flag = 1;
   size_peratom_cols = AtomLosses::kinds;
   create_attribute = 1;

@@ -3,6 +3,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "modify.h"
 #include "my_page.h"
@@ -282,6 +283,8 @@ void ContactHistory::watch_radii(bool change)
 
 void ContactHistory::remember_sizes()
 {
+  std::copy_n(domain->boxlo, 3, listed_box.begin());
+  std::copy_n(domain->boxhi, 3, listed_box.begin() + 3);
   listed_radius.assign(atom->radius, atom->radius + atom->nlocal);
   listed_position.resize(atom->nlocal);
   for (int i = 0; i < atom->nlocal; i++) std::copy_n(atom->x[i], 3, listed_position[i].begin());
@@ -294,7 +297,7 @@ void ContactHistory::post_integrate()
 {
   if (!radii_change) return;
   const double steps = std::max(1, neighbor->ago);
-  int mine = 0, any = 0;
+  double mine[] = {0.0, 0.0}, all[2];    // motion with growth, growth alone
   for (int i = 0; i < std::min(atom->nlocal, static_cast<int>(listed_radius.size())); i++) {
     double way_squared = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -302,10 +305,28 @@ void ContactHistory::post_integrate()
       way_squared += way * way;
     }
     const double grown = std::max(0.0, atom->radius[i] - listed_radius[i]);
-    mine |= std::sqrt(way_squared) + grown * (1.0 + 1.0 / steps) > 0.5 * neighbor->skin;
+    mine[0] = std::max(mine[0], std::sqrt(way_squared) + grown * (1.0 + 1.0 / steps));
+    mine[1] = std::max(mine[1], grown);
   }
-  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any) next_reneighbor = update->ntimestep;
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  if (2.0 * all[1] > neighbor->skin)
+    error->all(FLERR,
+               "pair_style gran/eepa: radii grew by up to {:.6g} in {} steps, more than half the "
+               "skin of {:.6g}, so that contacts were missed: let them grow in smaller steps, or "
+               "make the skin larger with the command neighbor",
+               all[1], neighbor->ago, neighbor->skin);
+  if (2.0 * all[0] > neighbor->skin - box_moved()) next_reneighbor = update->ntimestep;
+}
+
+/// What LAMMPS takes off the skin where the box changes: the ways of two opposite corners.
+double ContactHistory::box_moved() const
+{
+  double lower = 0.0, upper = 0.0;
+  for (int k = 0; k < 3; k++) {
+    lower += std::pow(domain->boxlo[k] - listed_box[k], 2);
+    upper += std::pow(domain->boxhi[k] - listed_box[3 + k], 2);
+  }
+  return std::sqrt(lower) + std::sqrt(upper);
 }
 
 /* ---------------------------------------------------------------------- going with a particle */

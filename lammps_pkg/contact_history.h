@@ -98,6 +98,7 @@ class ContactHistory : public FixNeighHistory {
   void follow_particles();
   void reserve_exchange();
   void remember_sizes();
+  double box_moved() const;
   void warn_of_lost_histories(bigint stored);
   std::string what_does_not_fit() const;
 
@@ -123,6 +124,7 @@ class ContactHistory : public FixNeighHistory {
   bool radii_change = false;
   std::vector<double> listed_radius;    // where radii change: when the list was made
   std::vector<std::array<double, 3>> listed_position;
+  std::array<double, 6> listed_box{};    // its lower and upper corner
   bool parting_contacts = false;
   bool partners_are_newest = true;    // and not what stands beside the neighbour list
   bool list_is_old = true;            // particles may have moved to other places since

@@ -18,7 +18,8 @@ class ContactMasses : protected Pointers {
  public:
   explicit ContactMasses(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// Looks up fix freeze and fix rigid; LAMMPS errors if there are several of either.
+  /// Looks up fix freeze and every fix rigid; an error where there are two fix freeze, which LAMMPS
+  /// does not allow either.
   void init(const char *command);
 
   /// Masses of owned atoms, and of ghosts once body masses were sent to them; call each step.
@@ -30,23 +31,36 @@ class ContactMasses : protected Pointers {
   {
     if (atom->mask[i] & freeze_groupbit_) return std::numeric_limits<double>::infinity();
     // fix rigid's are not there before the first force call
-    const bool body = fix_rigid_ && !body_mass_.empty() && body_mass_[i] > 0.0;
+    const bool body = !fixes_rigid_.empty() && !body_mass_.empty() && body_mass_[i] > 0.0;
     return body ? body_mass_[i] : atom->rmass[i];
   }
 
-  /// Whether ghosts need the body masses that pack() and unpack() carry.
-  bool has_bodies() const { return fix_rigid_ != nullptr; }
-  /// Takes body masses of owned atoms from fix rigid, after each reneighbouring.
+  /// Whether two particles can not move each other: both are frozen, or both in one rigid body.
+  bool hold_together(int i, int j) const
+  {
+    if (atom->mask[i] & atom->mask[j] & freeze_groupbit_) return true;
+    return !body_.empty() && body_[i] != 0.0 && body_[i] == body_[j];
+  }
+  /// Whether there can be such a pair.
+  bool holds_some() const { return freeze_groupbit_ != 0 || has_bodies(); }
+
+  /// Whether ghosts need the bodies that pack_bodies() and unpack_bodies() carry.
+  bool has_bodies() const { return !fixes_rigid_.empty(); }
+  /// Takes the bodies of owned atoms from the fixes rigid, after each reneighbouring.
   void collect_bodies();
-  double &body_mass(int i) { return body_mass_[i]; }
+  int pack_bodies(int n, const int *atoms, double *buf) const;    ///< 2 numbers an atom
+  void unpack_bodies(int n, int first, const double *buf);
 
   int freeze_groupbit() const { return freeze_groupbit_; }
   double memory_usage() const;
 
  private:
-  Fix *fix_rigid_ = nullptr;
+  void collect_bodies_of(Fix *, double which);
+
+  std::vector<Fix *> fixes_rigid_;
   int freeze_groupbit_ = 0;
-  std::vector<double> body_mass_;    // 0 for a particle in no body
+  std::vector<double> body_mass_;     // 0 for a particle in no body
+  std::vector<double> body_;          // a number of its own for each body of all fixes, likewise
   std::vector<int> not_their_own_;    // atoms that are held or in a body
   std::vector<double> mass_;
 };

@@ -4,6 +4,9 @@
 
 #include "fix_wall_gran_eepa.h"
 
+#include "find_contact_owners.h"
+#include "run_guards.h"
+
 #include <eepa/history.h>
 #include <eepa/time_step.h>
 
@@ -40,6 +43,7 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
                "fix {} wall/gran/eepa: atoms must have radius, rmass, omega and torque; use "
                "atom_style sphere",
                id);
+  require_consistent_units(lmp, style_name());
 
   const eepa::Words words(arg, arg + narg);
   int iarg = 3;
@@ -252,14 +256,13 @@ int FixWallGranEepa::setmask()
 void FixWallGranEepa::init()
 {
   dt = update->dt;
-  if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "fix {} wall/gran/eepa can not be used with run_style respa", id);
+  require_force_once_a_step(lmp, style_name());
+  warn_of_rotation();
   masses.init("fix wall/gran/eepa");
   const bool kept = keep_ledger;
   keep_ledger = EnergyLedger::wanted(modify);
   ledger_starts = keep_ledger && (ledger_starts || !kept);
-  radii_may_change = !modify->get_fix_by_style("^adapt").empty() ||
-      !modify->get_fix_by_style("^set$").empty();
+  radii_may_change = LAMMPS_NS::radii_may_change(modify);
   for (const auto &name : velocity_variable) require_equal_style("velocity", name);
   require_equal_style("load force", load.force.variable);
   require_equal_style("load pressure", load.pressure.variable);
@@ -270,6 +273,25 @@ void FixWallGranEepa::init()
                "fix {} wall/gran/eepa: load limits {:.6g} to {:.6g} are not allowed: the plane is "
                "at {:.6g}, outside of them",
                id, platen.lowest, platen.highest, platen.position);
+}
+
+std::string FixWallGranEepa::style_name() const
+{
+  return std::string("fix ") + id + " wall/gran/eepa";
+}
+
+/// Only once, be there several walls and a pair style.
+void FixWallGranEepa::warn_of_rotation()
+{
+  if (comm->me != 0) return;
+  for (const auto *pair : find_eepa_pairs(force))
+    if (pair->has_warned_of_rotation()) return;
+  for (const auto *wall : find_eepa_walls(modify))
+    if (wall->rotation_warned) return;
+  const std::string advice = advice_on_rotation(lmp, parameters.mu);
+  if (advice.empty()) return;
+  rotation_warned = true;
+  error->warning(FLERR, "{}: {}", style_name(), advice);
 }
 
 void FixWallGranEepa::require_equal_style(const char *what, const std::string &variable)
@@ -299,6 +321,19 @@ TimeStepBound FixWallGranEepa::largest_time_step(const std::vector<AnnouncedPart
                                          eepa::largest_stiffness(coefficients, come.smallest)));
   if (motion == Motion::load) bound.time_step = std::min(bound.time_step, platen_time_step());
   return bound;
+}
+
+/// At the start of a run, and when particles came. Collective.
+void FixWallGranEepa::check_time_step()
+{
+  checked_particles = atom->natoms;
+  const double bound = contact_time_step();
+  if (style.time_step_check == eepa::TimeStepCheck::off || update->dt <= bound || time_step_warned)
+    return;
+  time_step_warned = true;
+  complain(fmt::format("fix {} wall/gran/eepa: timestep {:.6g} is larger than {:.6g} = 0.2 "
+                       "sqrt(m_min/k_max) of contacts with this wall",
+                       id, update->dt, bound));
 }
 
 double FixWallGranEepa::contact_time_step()

@@ -119,7 +119,8 @@ class FixWallGranEepa : public Fix {
   Platen platen;
   double load_now = 0.0;          // force from outside at the last force call
   double load_stiffness = 0.0;    // the largest of a contact with the platen, all ranks
-  bool platen_warned = false;
+  bool platen_warned = false, rotation_warned = false, time_step_warned = false;
+  bigint checked_particles = 0;    // how many there were when the time step was checked
 
   double dt = 0.0;
   int history_size;              // values of one contact
@@ -168,6 +169,9 @@ class FixWallGranEepa : public Fix {
   double platen_time_step() const;
   void check_platen();
   void book(int i, const eepa::Dissipation &);
+  std::string style_name() const;
+  void warn_of_rotation();
+  void check_time_step();
   void complain(const std::string &message);
   void stop_at_overlap(int i, double overlap) const;
   template <class ContactLaw> void contact_loop();

@@ -120,11 +120,8 @@ void FixWallGranEepa::setup(int vflag)
   if (motion == Motion::velocity) evaluate_velocity();
   if (masses.has_bodies()) masses.collect_bodies();
   platen_warned = false;    // its own bound is checked where its contacts are known
-  const double bound = contact_time_step();
-  if (style.time_step_check != eepa::TimeStepCheck::off && update->dt > bound)
-    complain(fmt::format("fix {} wall/gran/eepa: timestep {:.6g} is larger than {:.6g} = 0.2 "
-                         "sqrt(m_min/k_max) of contacts with this wall",
-                         id, update->dt, bound));
+  time_step_warned = false;
+  check_time_step();
   post_force(vflag);
 }
 
@@ -135,6 +132,8 @@ void FixWallGranEepa::post_force(int /*vflag*/)
       loop = &FixWallGranEepa::contact_loop<decltype(law)>;
     });
   if (masses.has_bodies() && neighbor->ago == 0) masses.collect_bodies();
+  if (neighbor->ago == 0 && update->setupflag == 0 && atom->natoms > checked_particles)
+    check_time_step();
   move_surfaces();
   if (update->setupflag || neighbor->ago == 0 || !motion_is_bounded() ||
       !(surfaces.moved_since(collected_at) <= way_left))

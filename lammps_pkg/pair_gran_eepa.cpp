@@ -5,6 +5,7 @@
 #include "pair_gran_eepa.h"
 
 #include "contact_history.h"
+#include "run_guards.h"
 
 #include <eepa/mixing.h>
 
@@ -67,7 +68,7 @@ PairGranEepa::PairGranEepa(LAMMPS *lmp) : Pair(lmp), masses(lmp)
   centroidstressflag = CENTROID_NOTAVAIL;
   finitecutflag = 1;
   writedata = 1;
-  comm_forward = 1;                      // body masses for fix rigid
+  comm_forward = 2;                      // of fix rigid: a body's mass and number
   comm_reverse = AtomLosses::kinds;      // what ghosts dissipated
   single_extra = N_SINGLE;
   svector = new double[N_SINGLE];
@@ -168,6 +169,9 @@ void PairGranEepa::coeff(int narg, char **arg)
 
 void PairGranEepa::init_style()
 {
+  require_consistent_units(lmp, style_name);
+  require_force_once_a_step(lmp, style_name);
+  require_history_communication(lmp, style_name);
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, "{}: atoms must have radius, rmass, omega and torque; use atom_style sphere",
                style_name);
@@ -205,10 +209,27 @@ void PairGranEepa::init_style()
   init_history();
   // an opening that falls on a rebuild must be booked, so such a contact outlives its end
   fix_history->keep_parting_contacts(keep_ledger);
+  warn_of_fixes();
   choose_law();
   coefficient_classes.clear();    // init_one() is still to come
   // last: after an error LAMMPS would keep the request of a pair style that may be gone
   neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
+}
+
+void PairGranEepa::warn_of_fixes()
+{
+  double mu = 0.0;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++)
+      if (setflag[i][j]) mu = std::max(mu, parameters[pair_index(i, j)].mu);
+  const auto say_once = [this](const std::string &advice, bool &said) {
+    if (advice.empty() || said) return;
+    said = true;
+    if (comm->me == 0) error->warning(FLERR, "{}: {}", style_name, advice);
+  };
+  say_once(advice_on_rotation(lmp, mu), rotation_warned);
+  say_once(advice_on_heat(lmp), heat_warned);
+  say_once(advice_on_rerun(lmp), rerun_warned);
 }
 
 void PairGranEepa::init_history()
@@ -406,13 +427,12 @@ void PairGranEepa::unpack_reverse_comm(int n, int *atoms, double *buf)
 
 int PairGranEepa::pack_forward_comm(int n, int *atoms, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
-  for (int i = 0; i < n; i++) buf[i] = masses.body_mass(atoms[i]);
-  return n;
+  return masses.pack_bodies(n, atoms, buf);
 }
 
 void PairGranEepa::unpack_forward_comm(int n, int first, double *buf)
 {
-  for (int i = 0; i < n; i++) masses.body_mass(first + i) = buf[i];
+  masses.unpack_bodies(n, first, buf);
 }
 
 double PairGranEepa::memory_usage()

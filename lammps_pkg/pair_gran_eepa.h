@@ -84,6 +84,11 @@ class PairGranEepa : public Pair {
     return ledger;
   }
 
+  bool has_warned_of_rotation() const
+  {
+    return rotation_warned;
+  }
+
  protected:
   /// The quantities of single() beyond the force, in the order of p1, p2, ... LAMMPS has the
   /// tangential force first in all its granular styles, and compute fabric takes the fourth.
@@ -125,6 +130,7 @@ class PairGranEepa : public Pair {
   std::vector<double> max_radius_dynamic, max_radius_frozen;    // by type
   bool plateau_warned = false, narrow_box_warned = false;
   bool time_step_warned = false;    // in this run
+  bool rotation_warned = false, heat_warned = false, rerun_warned = false;
 
   EnergyLedger ledger;
   bool keep_ledger = false;
@@ -162,6 +168,7 @@ class PairGranEepa : public Pair {
   void check_newcomers();
   void check_radii() const;
   void warn_of_narrow_box();
+  void warn_of_fixes();
   int history_size() const;
   void warn(const eepa::Words &);
   void warn_of_data_file() const;
@@ -176,6 +183,7 @@ class PairGranEepa : public Pair {
   void prefetch_neighbors(int place, int end, const double *f, const double *torque) const;
   void open_contact(ContactSlice &, int i, int place);
   void evaluate_block(ContactSlice &, int count);
+  int drop_held_pairs(ContactSlice &, int count) const;
   void sort_by_class(ContactSlice &, int count) const;
   template <class ContactLaw>
   void evaluate_plainly(ContactSlice &, const FoundContact *, int, const eepa::Coefficients &);

@@ -268,6 +268,7 @@ void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
     prefetch_partner(contact.j, particles, f, torque);
     slice.contacts[n] = contact;
   }
+  if (masses.holds_some()) count = drop_held_pairs(slice, count);
   if (coefficient_classes.size() == 1) {
     (this->*evaluate)(slice, slice.contacts.data(), count, coefficient_classes.front());
     return;
@@ -276,6 +277,17 @@ void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
   for (std::size_t c = 0; c < coefficient_classes.size(); c++)
     (this->*evaluate)(slice, slice.sorted.data() + slice.class_begin[c],
                       slice.class_begin[c + 1] - slice.class_begin[c], coefficient_classes[c]);
+}
+
+/// Pairs that can not move each other are no contacts: what they have of a history stays as it is.
+int PairGranEepa::drop_held_pairs(ContactSlice &slice, int count) const
+{
+  const auto first = slice.contacts.begin();
+  return static_cast<int>(std::remove_if(first, first + count,
+                                         [this](const FoundContact &contact) {
+                                           return masses.hold_together(contact.i, contact.j);
+                                         }) -
+                          first);
 }
 
 void PairGranEepa::sort_by_class(ContactSlice &slice, int count) const
@@ -400,7 +412,9 @@ void PairGranEepa::stop_at_overlap(int i, int j) const
       FLERR,
       "pair_style gran/eepa: atoms {} and {} overlap by {:.6g} at step {}, more than a radius "
       "({:.6g} and {:.6g}): the time step is too large, the stiffness too small or the start "
-      "too dense",
+      "too dense; what builds one clump, or "
+      "a floor that does not move, belongs into fix rigid or fix freeze or has to be left out with "
+      "neigh_modify exclude",
       atom->tag[i], atom->tag[j], overlap, update->ntimestep, atom->radius[i], atom->radius[j]);
   std::abort();    // error->one does not return
 }

@@ -69,6 +69,7 @@ double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, doub
   for (int k = 0; k < single_extra; k++) svector[k] = 0.0;
   const double reach = atom->radius[i] + atom->radius[j];
   if (rsq >= reach * reach || !single_law) return 0.0;
+  if (masses.holds_some() && masses.hold_together(i, j)) return 0.0;
 
   // the masses of these two alone: compute pair/local asks for every pair
   const ParticleArrays particles = {atom->x[0], atom->v[0], atom->omega[0], atom->radius,

@@ -104,7 +104,7 @@ TEST(Exclusion, LetsParticlesPassThroughEachOther)
 // rerun does without part of the set-up of a run.
 TEST(Rerun, HasTheForcesOfVirginContacts)
 {
-  const ScratchFile dump(".dump");
+  const ScratchFile dump(".dump"), log(".log");
   Packing packing;
   packing.types = 2;
   const auto open = [&](Simulation &simulation) {
@@ -113,7 +113,7 @@ TEST(Rerun, HasTheForcesOfVirginContacts)
     simulation("pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5\n"
                "pair_coeff 1 2 2e4 2e4 0 -2 0.5");
   };
-  Simulation set_up, again;
+  Simulation set_up, again(MPI_COMM_WORLD, log.name());
   open(set_up);
   set_up("run 0 post no\nwrite_dump all custom " + dump.name() +
          " id x y z modify format float %.17g");
@@ -126,6 +126,8 @@ TEST(Rerun, HasTheForcesOfVirginContacts)
     if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(largest, 10.0);
+  again("log none");
+  EXPECT_NE(log.text().find("rerun takes every contact for a new one"), std::string::npos);
 }
 
 // m* against a frozen partner is the moving one's mass: only then does the dashpot give e.

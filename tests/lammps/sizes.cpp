@@ -92,6 +92,18 @@ TEST(Growth, CountsTogetherWithMotion)
   EXPECT_NEAR(simulation.contacts()[0].overlap(), 0.008, 1e-9);
 }
 
+TEST(Growth, ThatIsTooFastForTheSkinIsNamed)
+{
+  Simulation simulation(MPI_COMM_SELF);
+  open_growing_box(simulation, "on");
+  simulation.create({{Vec3(0, 0, 0)}, {Vec3(1.8, 0, 0)}});
+  simulation("neighbor 0.1 bin\npair_style gran/eepa linear dtcheck off largest 2\n"
+             "pair_coeff * * 1e-9 2e-9 0 0 0\nfix move all nve/sphere\ntimestep 1e-3\n"
+             "variable d equal 1.0+0.2*(step>50)\n"
+             "fix grow all adapt 1 atom diameter v_d mass no");
+  EXPECT_TRUE(refuses(simulation, "run 100 post no", "radii grew by up to 0.1 in [0-9]+ steps"));
+}
+
 /* ---------------------------------------------------------------------- time step */
 
 constexpr const char *empty_box =
