@@ -116,15 +116,7 @@ namespace {
 
   Quantity parse_quantity(Reader &reader, const std::string &name)
   {
-    const std::string &word = reader.word(name);
-    Quantity quantity;
-    if (word.compare(0, 2, "v_") != 0)
-      quantity.value = parse_number(name, word);
-    else if (word.size() > 2)
-      quantity.variable = word.substr(2);
-    else
-      refuse(name + " = v_ names no variable");
-    return quantity;
+    return eepa::parse_quantity(name, reader.word(name));
   }
 
   /// A limit of travel; NULL leaves `open` as it is.
@@ -175,6 +167,18 @@ double parse_number(const std::string &name, const std::string &word)
   if (!plain || *end != '\0' || !std::isfinite(value))
     refuse(name + " = " + word + " is not a finite number");
   return value;
+}
+
+Quantity parse_quantity(const std::string &name, const std::string &word)
+{
+  Quantity quantity;
+  if (word.compare(0, 2, "v_") != 0)
+    quantity.value = parse_number(name, word);
+  else if (word.size() > 2)
+    quantity.variable = word.substr(2);
+  else
+    refuse(name + " = v_ names no variable");
+  return quantity;
 }
 
 std::size_t parse_style(const Words &words, std::size_t first, const std::string &stop,

@@ -78,6 +78,10 @@ std::size_t parse_load(const Words &words, std::size_t first, const Words &other
 /// \throw std::invalid_argument naming `name` and the word
 double parse_number(const std::string &name, const std::string &word);
 
+/// Reads a finite number or v_name.
+/// \throw std::invalid_argument naming `name` and the word
+Quantity parse_quantity(const std::string &name, const std::string &word);
+
 /// Validates parameters once more, after settings changed or types were mixed.
 /// \throw std::invalid_argument with every message
 void require_valid(const Parameters &parameters, const LawSettings &settings, Words &warnings);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What FixWallGranEepa does outside the force call: its command, per-atom arrays, restart.
+// What FixWallGranEepa does outside the force call: its command, set-up, per-atom arrays.
 
 #include "fix_wall_gran_eepa.h"
 
@@ -14,11 +14,9 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "input.h"
 #include "memory.h"
 #include "modify.h"
 #include "update.h"
-#include "variable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,13 +25,6 @@
 #include <stdexcept>
 
 using namespace LAMMPS_NS;
-
-namespace {
-constexpr double restart_format = 2.0;
-// format, values an atom, displacement, time origin; whether there is a platen, its position,
-// velocity, work and dissipation
-constexpr int restart_size = 11;
-}    // namespace
 
 FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), masses(lmp), felt{}, felt_vector{}
@@ -61,7 +52,31 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   }
   coefficients = eepa::resolve(parameters, style.settings);
   iarg = parse_wall(narg, arg, iarg + 1);
-  while (iarg < narg) iarg = parse_motion(narg, arg, iarg);
+  made_at = {surfaces.lo, surfaces.hi};
+  eepa::MotionArguments typed;
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    if (key == "contacts") {
+      contact_table = true;
+      iarg++;
+    } else if (eepa::is_motion(key)) {
+      try {
+        if (typed.drive != eepa::WallDrive::still)
+          throw std::invalid_argument("only one of velocity, wiggle, shear and load is allowed, or "
+                                      "load and shear, side by side");
+        iarg = static_cast<int>(eepa::parse_motion(words, iarg, {"contacts"}, for_motion(), typed));
+      } catch (const std::invalid_argument &e) {
+        error->all(FLERR, "fix {} wall/gran/eepa: {}", id, e.what());
+      }
+    } else {
+      error->all(FLERR,
+                 "fix {} wall/gran/eepa: keyword '{}' is unknown: it must be velocity, wiggle, "
+                 "shear, load or contacts",
+                 id, key);
+    }
+  }
+  place_surfaces();
+  change_motion(typed);
 
   create_attribute = 1;
   restart_peratom = 1;
@@ -80,7 +95,6 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   history_size = eepa::history_size(parameters.rolling, parameters.twisting);
   n_values = history_size * surfaces.count();
   maxexchange = n_values;
-  time_origin = update->ntimestep;
   dt = update->dt;
 
   FixWallGranEepa::grow_arrays(atom->nmax);
@@ -115,14 +129,19 @@ double FixWallGranEepa::number(const char *name, const char *word)
   return 0.0;
 }
 
-int FixWallGranEepa::dimension(const char *name, const char *word)
+/// A plane's coordinate.
+double FixWallGranEepa::position_word(const char *name, const char *word)
 {
-  const std::string dim = word;
-  if (dim != "x" && dim != "y" && dim != "z")
+  if (utils::strmatch(word, "^v_"))
     error->all(FLERR,
-               "fix {} wall/gran/eepa: {} dimension '{}' is not allowed: it must be x, y or z", id,
-               name, dim);
-  return dim[0] - 'x';
+               "fix {} wall/gran/eepa: {} = {} is not allowed: a position that a variable sets has "
+               "no velocity for the law to know; move the plane by velocity {} with a variable of "
+               "its speed, or by a force with load",
+               id, name, word,
+               surfaces.axis() == 0       ? "v_name 0 0"
+                   : surfaces.axis() == 1 ? "0 v_name 0"
+                                          : "0 0 v_name");
+  return number(name, word);
 }
 
 int FixWallGranEepa::parse_wall(int narg, char **arg, int iarg)
@@ -152,8 +171,8 @@ int FixWallGranEepa::parse_wall(int narg, char **arg, int iarg)
   surfaces.kind = static_cast<WallSurfaces::Kind>(kind[0] - 'x');
   surfaces.has_lo = std::strcmp(arg[iarg + 1], "NULL") != 0;
   surfaces.has_hi = std::strcmp(arg[iarg + 2], "NULL") != 0;
-  if (surfaces.has_lo) surfaces.lo = number("wall lo", arg[iarg + 1]);
-  if (surfaces.has_hi) surfaces.hi = number("wall hi", arg[iarg + 2]);
+  if (surfaces.has_lo) surfaces.lo = position_word("wall lo", arg[iarg + 1]);
+  if (surfaces.has_hi) surfaces.hi = position_word("wall hi", arg[iarg + 2]);
   if (!surfaces.has_lo && !surfaces.has_hi)
     error->all(FLERR,
                "fix {} wall/gran/eepa: wall {} NULL NULL has no surface: give lo, hi or both", id,
@@ -167,90 +186,17 @@ int FixWallGranEepa::parse_wall(int narg, char **arg, int iarg)
   return iarg + 3;
 }
 
-int FixWallGranEepa::parse_motion(int narg, char **arg, int iarg)
+eepa::WallForMotion FixWallGranEepa::for_motion() const
 {
-  const std::string key = arg[iarg];
-  if (key == "contacts") {
-    contact_table = true;
-    return iarg + 1;
-  }
-  if (key != "velocity" && key != "wiggle" && key != "shear" && key != "load")
-    error->all(
-        FLERR,
-        "fix {} wall/gran/eepa: keyword '{}' is unknown: it must be velocity, wiggle, shear, load "
-        "or contacts",
-        id, key);
-  if (motion != Motion::still)
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: only one of velocity, wiggle, shear and load is allowed",
-               id);
-  if (key == "load") return parse_load(narg, arg, iarg + 1);
-
-  if (key == "velocity") {
-    require(narg, iarg, 4, "velocity vx vy vz");
-    motion = Motion::velocity;
-    for (int k = 0; k < 3; k++) {
-      if (utils::strmatch(arg[iarg + 1 + k], "^v_"))
-        velocity_variable[k] = arg[iarg + 1 + k] + 2;
-      else
-        velocity[k] = number("velocity", arg[iarg + 1 + k]);
-    }
-    return iarg + 4;
-  }
-  if (key == "wiggle") {
-    require(narg, iarg, 4, "wiggle dim A period");
-    motion = Motion::wiggle;
-    motion_axis = dimension("wiggle", arg[iarg + 1]);
-    amplitude = number("wiggle A", arg[iarg + 2]);
-    period = number("wiggle period", arg[iarg + 3]);
-    if (period <= 0.0)
-      error->all(FLERR, "fix {} wall/gran/eepa: wiggle period = {} is not allowed: it must be > 0",
-                 id, arg[iarg + 3]);
-    return iarg + 4;
-  }
-  require(narg, iarg, 3, "shear dim v");
-  motion = Motion::shear;
-  motion_axis = dimension("shear", arg[iarg + 1]);
-  shear_velocity = number("shear v", arg[iarg + 2]);
-  if (surfaces.is_plane() && motion_axis == surfaces.axis())
-    error->all(
-        FLERR,
-        "fix {} wall/gran/eepa: shear dimension {} is not allowed: it must lie in the plane; "
-        "use velocity to move a plane along its normal",
-        id, arg[iarg + 1]);
-  return iarg + 3;
-}
-
-int FixWallGranEepa::parse_load(int narg, char **arg, int iarg)
-{
-  if (!surfaces.is_plane() || surfaces.count() != 1)
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: load is not allowed with wall {}: it needs one plane alone, "
-               "lo or hi",
-               id, surfaces.is_plane() ? "lo hi" : "zcylinder");
-  motion = Motion::load;
-  const eepa::Words words(arg, arg + narg);
-  try {
-    iarg = static_cast<int>(
-        eepa::parse_load(words, iarg, {"velocity", "wiggle", "shear", "load", "contacts"}, load));
-  } catch (const std::invalid_argument &e) {
-    error->all(FLERR, "fix {} wall/gran/eepa: {}", id, e.what());
-  }
-  platen.mass = load.mass;
-  platen.damping = load.damping;
-  platen.lowest = load.lowest;
-  platen.highest = load.highest;
-  platen.position = surfaces.position();
-  return iarg;
+  return {surfaces.is_plane(), surfaces.count(), surfaces.axis()};
 }
 
 /* ---------------------------------------------------------------------- set-up */
 
 int FixWallGranEepa::setmask()
 {
-  int mask = FixConst::INITIAL_INTEGRATE | FixConst::POST_FORCE;
-  if (motion == Motion::load) mask |= FixConst::FINAL_INTEGRATE;
-  return mask;
+  // fix_modify may load a wall at any time
+  return FixConst::INITIAL_INTEGRATE | FixConst::POST_FORCE | FixConst::FINAL_INTEGRATE;
 }
 
 void FixWallGranEepa::init()
@@ -263,16 +209,8 @@ void FixWallGranEepa::init()
   keep_ledger = EnergyLedger::wanted(modify);
   ledger_starts = keep_ledger && (ledger_starts || !kept);
   radii_may_change = LAMMPS_NS::radii_may_change(modify);
-  for (const auto &name : velocity_variable) require_equal_style("velocity", name);
-  require_equal_style("load force", load.force.variable);
-  require_equal_style("load pressure", load.pressure.variable);
-  require_equal_style("load area", load.area.variable);
-  if (motion == Motion::load &&
-      (platen.position < platen.lowest || platen.position > platen.highest))
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: load limits {:.6g} to {:.6g} are not allowed: the plane is "
-               "at {:.6g}, outside of them",
-               id, platen.lowest, platen.highest, platen.position);
+  require_variables(told);
+  if (loaded()) require_limits(told.load, platen.position);
 }
 
 std::string FixWallGranEepa::style_name() const
@@ -294,18 +232,6 @@ void FixWallGranEepa::warn_of_rotation()
   error->warning(FLERR, "{}: {}", style_name(), advice);
 }
 
-void FixWallGranEepa::require_equal_style(const char *what, const std::string &variable)
-{
-  if (variable.empty()) return;
-  const int index = input->variable->find(variable.c_str());
-  if (index < 0)
-    error->all(FLERR, "fix {} wall/gran/eepa: {} variable {} does not exist", id, what, variable);
-  if (!input->variable->equalstyle(index))
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: {} variable {} is not allowed: it must be equal-style", id,
-               what, variable);
-}
-
 void FixWallGranEepa::reset_dt()
 {
   dt = update->dt;
@@ -319,7 +245,7 @@ TimeStepBound FixWallGranEepa::largest_time_step(const std::vector<AnnouncedPart
         std::min(bound.time_step,
                  eepa::largest_time_step(eepa::sphere_mass(come.smallest, come.density),
                                          eepa::largest_stiffness(coefficients, come.smallest)));
-  if (motion == Motion::load) bound.time_step = std::min(bound.time_step, platen_time_step());
+  if (loaded()) bound.time_step = std::min(bound.time_step, platen_time_step());
   return bound;
 }
 
@@ -348,8 +274,7 @@ double FixWallGranEepa::contact_time_step()
   }
   double bound;
   MPI_Allreduce(&mine, &bound, 1, MPI_DOUBLE, MPI_MIN, world);
-  if (motion == Motion::load)
-    MPI_Allreduce(&stiffest, &load_stiffness, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (loaded()) MPI_Allreduce(&stiffest, &load_stiffness, 1, MPI_DOUBLE, MPI_MAX, world);
   return bound;
 }
 
@@ -415,83 +340,6 @@ int FixWallGranEepa::unpack_exchange(int i, double *buf)
   std::copy_n(buf, n_values, history[i]);
   if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
   return n_values;
-}
-
-/* ---------------------------------------------------------------------- restart */
-
-int FixWallGranEepa::pack_restart(int i, double *buf)
-{
-  buf[0] = n_values + 1;    // first, because other fixes skip over it
-  std::copy_n(history[i], n_values, buf + 1);
-  return n_values + 1;
-}
-
-void FixWallGranEepa::unpack_restart(int i, int nth)
-{
-  const double *extra = atom->extra[i];
-  int at = 0;
-  for (int k = 0; k < nth; k++) at += static_cast<int>(extra[at]);
-  const int count = static_cast<int>(extra[at]) - 1;
-  if (count != n_values)
-    error->one(FLERR,
-               "fix {} wall/gran/eepa: the restart file has {} values a particle and the fix needs "
-               "{}: surfaces, rolling sds and twisting must be as they were",
-               id, count, n_values);
-  std::copy_n(extra + at + 1, n_values, history[i]);
-}
-
-int FixWallGranEepa::maxsize_restart()
-{
-  return n_values + 1;
-}
-
-int FixWallGranEepa::size_restart(int /*i*/)
-{
-  return n_values + 1;
-}
-
-void FixWallGranEepa::write_restart(FILE *fp)
-{
-  if (comm->me != 0) return;
-  const double numbers[restart_size] = {restart_format,
-                                        static_cast<double>(n_values),
-                                        displacement[0],
-                                        displacement[1],
-                                        displacement[2],
-                                        static_cast<double>(time_origin),
-                                        motion == Motion::load ? 1.0 : 0.0,
-                                        platen.position,
-                                        platen.velocity,
-                                        platen.work,
-                                        platen.dissipated};
-  const int bytes = sizeof(numbers);
-  fwrite(&bytes, sizeof(int), 1, fp);
-  fwrite(numbers, sizeof(double), restart_size, fp);
-}
-
-void FixWallGranEepa::restart(char *buf)
-{
-  double numbers[restart_size];
-  // another format may be shorter
-  std::memcpy(numbers, buf, sizeof(double));
-  if (numbers[0] != restart_format)
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: the restart file has format {}, this version reads {}", id,
-               numbers[0], restart_format);
-  std::memcpy(numbers, buf, sizeof(numbers));
-  const bool had_platen = numbers[6] != 0.0;
-  if (had_platen != (motion == Motion::load))
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: the wall of the restart file {} driven by load: this one "
-               "must be likewise",
-               id, had_platen ? "is" : "is not");
-  std::copy_n(numbers + 2, 3, displacement.begin());
-  time_origin = static_cast<bigint>(numbers[5]);
-  if (!had_platen) return;
-  platen.position = numbers[7];
-  platen.velocity = numbers[8];
-  platen.work = numbers[9];
-  platen.dissipated = numbers[10];
 }
 
 double FixWallGranEepa::memory_usage()

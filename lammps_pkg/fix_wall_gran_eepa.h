@@ -15,6 +15,8 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 #include "energy_ledger.h"
 #include "particle_sizes.h"
 #include "platen.h"
+#include "wall_commands.h"
+#include "wall_motion.h"
 #include "wall_surface.h"
 
 #include <eepa/coefficients.h>
@@ -38,6 +40,7 @@ class FixWallGranEepa : public Fix {
   void post_force(int) override;
   void final_integrate() override;
   void reset_dt() override;
+  int modify_param(int, char **) override;
   double compute_vector(int) override;
   double memory_usage() override;
 
@@ -76,8 +79,8 @@ class FixWallGranEepa : public Fix {
     SECOND_FORCE_Z,
     LOAD_FORCE,    ///< of `load`, along the plane's axis
     LOAD_KINETIC_ENERGY,
-    LOAD_WORK,          ///< done by LOAD_FORCE so far
-    LOAD_DISSIPATED,    ///< by the platen's damping and at its limits so far
+    LOAD_WORK,          ///< done by LOAD_FORCE so far, and what a change of drive gave the platen
+    LOAD_DISSIPATED,    ///< by the platen's damping, limits and changes of drive so far
     N_VECTOR
   };
   /// the per-atom table that keyword `contacts` asks for
@@ -95,7 +98,6 @@ class FixWallGranEepa : public Fix {
     ATOM_SLIP,
     N_ATOM
   };
-  enum class Motion { still, velocity, wiggle, shear, load };
   /// what a surface felt in the last force call, this rank's part
   struct SurfaceSum {
     double force[3];
@@ -108,14 +110,10 @@ class FixWallGranEepa : public Fix {
   ContactMasses masses;
   WallSurfaces surfaces;
 
-  Motion motion = Motion::still;
-  std::array<std::string, 3> velocity_variable;    // empty where a number was given
-  std::array<double, 3> velocity = {0.0, 0.0, 0.0};
-  std::array<double, 3> displacement = {0.0, 0.0, 0.0};
-  int motion_axis = 0;
-  double amplitude = 0.0, period = 0.0, shear_velocity = 0.0;
-  bigint time_origin = 0;
-  eepa::LoadArguments load;
+  std::array<double, 2> made_at = {0.0, 0.0};    // planes lo and hi without displacement
+  eepa::MotionArguments told;
+  WallMotion motion;
+  double sliding = 0.0;    // of a surface by `shear`, as evaluated last
   Platen platen;
   double load_now = 0.0;          // force from outside at the last force call
   double load_stiffness = 0.0;    // the largest of a contact with the platen, all ranks
@@ -129,7 +127,7 @@ class FixWallGranEepa : public Fix {
   bool contact_table = false;
   std::array<SurfaceSum, 2> felt;
   std::array<double, N_VECTOR> felt_vector;
-  bigint felt_reduced = -1;
+  bool felt_summed = true;    // whether felt_vector has the sum over all ranks of `felt`
 
   // the atoms that contact_loop() visits: all that can touch a surface before they are collected
   // again
@@ -145,21 +143,26 @@ class FixWallGranEepa : public Fix {
   std::vector<class ComputeGranEepaEnergyAtom *> atom_losses;    // who wants them by particle
   double power = 0.0;    // of the surfaces on this rank's particles, at the last force call
   double push = 0.0;     // of the platen on them along its axis, likewise
+  double drag = 0.0;     // power of a platen's sliding surface on them, likewise
 
   typedef void (FixWallGranEepa::*Loop)();
   Loop loop = nullptr;
 
   int parse_wall(int narg, char **arg, int iarg);
-  int parse_motion(int narg, char **arg, int iarg);
-  int parse_load(int narg, char **arg, int iarg);
+  double position_word(const char *name, const char *word);
   double number(const char *name, const char *word);
-  int dimension(const char *name, const char *word);
   void require(int narg, int iarg, int count, const char *what);
-  void require_equal_style(const char *what, const std::string &variable);
-  void evaluate_velocity();
+  eepa::WallForMotion for_motion() const;
+  bool loaded() const { return told.drive == eepa::WallDrive::load; }
+  /// Goes over to what was told; place, contacts and a platen's speed stay.
+  void change_motion(const eepa::MotionArguments &next);
+  void require_variables(const eepa::MotionArguments &motion) const;
+  void require_limits(const eepa::LoadArguments &load, double place) const;
+  void require_equal_style(const char *what, const std::string &variable) const;
+  void evaluate_motion();
   double evaluate(const char *what, const eepa::Quantity &quantity);
   double evaluate_load();
-  void move_surfaces();
+  void place_surfaces();
   bool motion_is_bounded() const;
   void collect_candidates();
   void sum_forces();
@@ -173,8 +176,13 @@ class FixWallGranEepa : public Fix {
   void warn_of_rotation();
   void check_time_step();
   void complain(const std::string &message);
-  void stop_at_overlap(int i, double overlap) const;
+  void stop_at_overlap(int i, int surface, double overlap) const;
   template <class ContactLaw> void contact_loop();
+
+  // restart files, fix_wall_gran_eepa_restart.cpp
+  std::vector<double> restart_state() const;
+  void require_same_wall(const std::vector<double> &state) const;
+  void take_up_motion(const std::vector<double> &state);
 };
 
 }    // namespace LAMMPS_NS

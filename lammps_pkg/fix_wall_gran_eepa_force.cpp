@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Where FixWallGranEepa calls the law, and how its surfaces move.
+// Where FixWallGranEepa calls the law.
 
 #include "fix_wall_gran_eepa.h"
 
@@ -11,12 +11,8 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "input.h"
-#include "math_const.h"
-#include "modify.h"
 #include "neighbor.h"
 #include "update.h"
-#include "variable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,100 +20,11 @@
 using namespace LAMMPS_NS;
 using eepa::Vec3;
 
-void FixWallGranEepa::evaluate_velocity()
-{
-  const bool any =
-      std::any_of(velocity_variable.begin(), velocity_variable.end(), [](const std::string &name) {
-        return !name.empty();
-      });
-  if (!any) return;
-  modify->clearstep_compute();
-  for (int k = 0; k < 3; k++) {
-    if (velocity_variable[k].empty()) continue;
-    velocity[k] =
-        input->variable->compute_equal(input->variable->find(velocity_variable[k].c_str()));
-  }
-  modify->addstep_compute(update->ntimestep + 1);
-}
-
-double FixWallGranEepa::evaluate(const char *what, const eepa::Quantity &quantity)
-{
-  if (quantity.variable.empty()) return quantity.value;
-  const double value =
-      input->variable->compute_equal(input->variable->find(quantity.variable.c_str()));
-  if (!std::isfinite(value))
-    error->all(FLERR, "fix {} wall/gran/eepa: {} variable {} = {} at step {} is not finite", id,
-               what, quantity.variable, value, update->ntimestep);
-  return value;
-}
-
-/// The force from outside along the plane's axis. Its variables may ask for this fix's own vector.
-double FixWallGranEepa::evaluate_load()
-{
-  const bool any = !load.force.variable.empty() || !load.pressure.variable.empty() ||
-      !load.area.variable.empty();
-  if (any) modify->clearstep_compute();
-  double applied;
-  if (load.by_pressure) {
-    const double pressure = evaluate("load pressure", load.pressure);
-    const double area = evaluate("load area", load.area);
-    if (area <= 0.0)
-      error->all(FLERR,
-                 "fix {} wall/gran/eepa: load area variable {} = {} at step {} is not allowed: it "
-                 "must be > 0",
-                 id, load.area.variable, area, update->ntimestep);
-    applied = pressure * area * surfaces.inward();
-  } else {
-    applied = evaluate("load force", load.force);
-  }
-  if (any) modify->addstep_compute(update->ntimestep + 1);
-  return applied;
-}
-
-void FixWallGranEepa::initial_integrate(int /*vflag*/)
-{
-  if (motion == Motion::load) platen.start_step(dt);
-  if (motion != Motion::velocity) return;
-  // the positions that the next force call meets are those of the end of this step
-  evaluate_velocity();
-  for (int k = 0; k < 3; k++) displacement[k] += velocity[k] * dt;
-}
-
-void FixWallGranEepa::move_surfaces()
-{
-  surfaces.velocity = {0.0, 0.0, 0.0};
-  surfaces.surface_speed = 0.0;
-  surfaces.displacement = {0.0, 0.0, 0.0};
-  switch (motion) {
-    case Motion::still:
-      break;
-    case Motion::velocity:
-      surfaces.velocity = velocity;
-      surfaces.displacement = displacement;
-      break;
-    case Motion::wiggle: {
-      const double omega = MathConst::MY_2PI / period;
-      const double phase = omega * dt * static_cast<double>(update->ntimestep - time_origin);
-      surfaces.displacement[motion_axis] = amplitude - amplitude * std::cos(phase);
-      surfaces.velocity[motion_axis] = amplitude * omega * std::sin(phase);
-      break;
-    }
-    case Motion::shear:
-      if (surfaces.is_plane() || motion_axis == 2)
-        surfaces.velocity[motion_axis] = shear_velocity;
-      else
-        surfaces.surface_speed = shear_velocity;
-      break;
-    case Motion::load:
-      surfaces.place(platen.position);
-      surfaces.velocity[surfaces.axis()] = platen.velocity;
-      break;
-  }
-}
-
 void FixWallGranEepa::setup(int vflag)
 {
-  if (motion == Motion::velocity) evaluate_velocity();
+  // variables may ask where the wall is
+  place_surfaces();
+  evaluate_motion();
   if (masses.has_bodies()) masses.collect_bodies();
   platen_warned = false;    // its own bound is checked where its contacts are known
   time_step_warned = false;
@@ -134,12 +41,12 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   if (masses.has_bodies() && neighbor->ago == 0) masses.collect_bodies();
   if (neighbor->ago == 0 && update->setupflag == 0 && atom->natoms > checked_particles)
     check_time_step();
-  move_surfaces();
+  place_surfaces();
   if (update->setupflag || neighbor->ago == 0 || !motion_is_bounded() ||
       !(surfaces.moved_since(collected_at) <= way_left))
     collect_candidates();
   felt = {};
-  felt_reduced = -1;
+  felt_summed = false;
   ledger.elastic = eepa::StoredEnergy();
   const double power_before = power;
   power = 0.0;
@@ -149,12 +56,17 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   const bool step = update->setupflag == 0;
   after_setup = !step;
   if (step) ledger_starts = false;
-  if (motion == Motion::load) {
+  if (loaded()) {
     const int dim = surfaces.axis();
     const double push_before = push;
     push = -felt[0].force[dim];
     // a platen's velocity may change within a step: force times way is what Verlet integrates
-    if (keep_ledger && step) ledger.wall_work += 0.5 * (push_before + push) * platen.travel();
+    const double drag_before = drag;
+    drag = told.slides ? -felt[0].force[told.shear_axis] * sliding : 0.0;
+    if (keep_ledger && step) {
+      ledger.wall_work += 0.5 * (push_before + push) * platen.travel();
+      ledger.wall_work += 0.5 * (drag_before + drag) * dt;
+    }
     // MPI gives every rank the same bits, so that all move the same platen
     sum_forces();
     load_now = evaluate_load();
@@ -163,11 +75,6 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   } else if (keep_ledger && step) {
     ledger.wall_work += 0.5 * (power_before + power) * dt;
   }
-}
-
-void FixWallGranEepa::final_integrate()
-{
-  platen.end_step(load_now, felt_vector[FORCE_X + surfaces.axis()], dt);
 }
 
 /// Whether no atom moves by more than half the skin between two neighbour lists. LAMMPS promises that
@@ -257,12 +164,13 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
           (!unknown_is_new && point.overlap + contact.velocity.dot(contact.normal) * dt > 0.0);
       if (point.overlap <= 0.0 || !member) {
         if (keep_ledger && touched && (store || !member))
-          book(i, eepa::dissipation_of_opening<ContactLaw>(coefficients, contact, time_step, state,
-                                                           !ledger_starts));
+          book(i,
+               eepa::dissipation_of_opening<ContactLaw>(coefficients, contact, time_step, state,
+                                                        !ledger_starts));
         eepa::store_history<Layout>(eepa::History(), values);
         continue;
       }
-      if (point.overlap > radius[i]) stop_at_overlap(i, point.overlap);
+      if (point.overlap > radius[i]) stop_at_overlap(i, surface, point.overlap);
       const eepa::History before = state;
       const eepa::Response response = ContactLaw::evaluate(
           coefficients, style.settings.limit_damping, contact, time_step, state);
@@ -274,8 +182,9 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
         ledger.store(ContactLaw::stored_energy(coefficients, contact.size, contact.overlap, state),
                      1.0);
         if (store)
-          book(i, eepa::dissipation_of_step<ContactLaw>(coefficients, contact, response, time_step,
-                                                        !touched, before, state, !ledger_starts));
+          book(i,
+               eepa::dissipation_of_step<ContactLaw>(coefficients, contact, response, time_step,
+                                                     !touched, before, state, !ledger_starts));
       }
       Vec3 turn = -arm * ContactLaw::tangential_moment(response, contact), wall_turn = turn;
       ContactLaw::add_couple(response, contact, turn, wall_turn);
@@ -309,13 +218,23 @@ void FixWallGranEepa::book(int i, const eepa::Dissipation &lost)
   for (auto *compute : atom_losses) compute->add(i, AtomLosses::by_kind(lost).data());
 }
 
-void FixWallGranEepa::stop_at_overlap(int i, double overlap) const
+void FixWallGranEepa::stop_at_overlap(int i, int surface, double overlap) const
 {
+  std::string where;
+  if (surfaces.is_plane())
+    where = fmt::format("or it was put behind the plane: {} {} at {:.6g} bounds a half space",
+                        surfaces.kind_name(), surfaces.is_lower(surface) ? "lo" : "hi",
+                        (surfaces.is_lower(surface) ? surfaces.lo : surfaces.hi) +
+                            surfaces.displacement[surfaces.axis()]);
+  else
+    where =
+        fmt::format("its center is through the cylinder of radius {:.6g}, which it touched from {}",
+                    surfaces.radius, surface == 0 ? "inside" : "outside");
   error->one(
       FLERR,
       "fix {} wall/gran/eepa: atom {} overlaps the wall by {:.6g} at step {}, more than its "
-      "radius {:.6g}: the time step is too large, the stiffness too small or the wall too fast",
-      id, atom->tag[i], overlap, update->ntimestep, atom->radius[i]);
+      "radius {:.6g}: the time step is too large, the stiffness too small or the wall too fast; {}",
+      id, atom->tag[i], overlap, update->ntimestep, atom->radius[i], where);
 }
 
 /// Brings the forces and contacts of all ranks together. Collective.
@@ -327,27 +246,30 @@ void FixWallGranEepa::sum_forces()
     mine[4 * s + 3] = felt[s].contacts;
   }
   MPI_Allreduce(mine, all, 8, MPI_DOUBLE, MPI_SUM, world);
+  if (!surfaces.is_plane()) {
+    // the two sides of a cylinder are one surface to a user
+    for (int k = 0; k < 4; k++) {
+      all[k] += all[4 + k];
+      all[4 + k] = 0.0;
+    }
+  }
   for (int k = 0; k < 3; k++) {
     felt_vector[FIRST_FORCE_X + k] = all[k];
     felt_vector[SECOND_FORCE_X + k] = all[4 + k];
     felt_vector[FORCE_X + k] = all[k] + all[4 + k];
   }
   felt_vector[CONTACTS] = all[3] + all[7];
-  felt_reduced = update->ntimestep;
+  felt_summed = true;
 }
 
 double FixWallGranEepa::compute_vector(int n)
 {
-  if (felt_reduced != update->ntimestep) sum_forces();
-  felt_vector[POSITION] = surfaces.position();
-  felt_vector[VELOCITY] = surfaces.normal_velocity();
-  if (motion == Motion::load) {
-    felt_vector[POSITION] = platen.position;
-    felt_vector[VELOCITY] = platen.velocity;
-    felt_vector[LOAD_FORCE] = load_now;
-    felt_vector[LOAD_KINETIC_ENERGY] = platen.kinetic_energy();
-    felt_vector[LOAD_WORK] = platen.work;
-    felt_vector[LOAD_DISSIPATED] = platen.dissipated;
-  }
+  if (!felt_summed) sum_forces();
+  felt_vector[POSITION] = loaded() ? platen.position : surfaces.position();
+  felt_vector[VELOCITY] = loaded() ? platen.velocity : surfaces.normal_velocity();
+  felt_vector[LOAD_FORCE] = loaded() ? load_now : 0.0;
+  felt_vector[LOAD_KINETIC_ENERGY] = loaded() ? platen.kinetic_energy() : 0.0;
+  felt_vector[LOAD_WORK] = platen.work;
+  felt_vector[LOAD_DISSIPATED] = platen.dissipated;
   return felt_vector[n];
 }

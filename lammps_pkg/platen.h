@@ -71,8 +71,26 @@ class Platen {
     // not add up. At a stop, what is missing afterwards is what the stop took.
     if (limited_)
       dissipated += kinetic_before_ + (mean_applied + mean_reaction) * travel_ - kinetic_energy();
-    else
+    else if (dt > 0.0)
       dissipated += braked_ * travel_ / dt;
+  }
+
+  /// A platen of the present mass at a given place and speed, whose kinetic energy was `had` before
+  /// (0 where there was none). What it gains comes from outside, as the work of the load does; what
+  /// it loses is booked as dissipated.
+  void start(double place, double speed, double had)
+  {
+    position = place;
+    velocity = speed;
+    const double gain = kinetic_energy() - had;
+    work += gain > 0.0 ? gain : 0.0;
+    dissipated += gain < 0.0 ? -gain : 0.0;
+  }
+  /// No platen any more: something else drives the wall, and its kinetic energy is lost.
+  void stop()
+  {
+    dissipated += kinetic_energy();
+    velocity = 0.0;
   }
 
  private:

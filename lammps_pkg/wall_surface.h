@@ -17,8 +17,11 @@ struct SurfacePoint {
   double curvature;       ///< 1/distance from a cylinder's axis, > 0 inside; 0 at a plane
 };
 
-/// The surfaces of one wall: two planes normal to an axis, or the lateral surface of a cylinder
-/// along z. Geometry and motion only; a kind of wall that is new belongs here.
+/// The surfaces of one wall: two planes normal to an axis, or both sides of the lateral surface of a
+/// cylinder along z. Geometry and motion only; a kind of wall that is new belongs here.
+///
+/// A particle in contact stays on the side of the cylinder where the contact began: its overlap
+/// with that side grows beyond its radius when its centre has gone through.
 class WallSurfaces {
  public:
   enum Kind { xplane = 0, yplane = 1, zplane = 2, zcylinder = 3 };
@@ -34,7 +37,15 @@ class WallSurfaces {
 
   bool is_plane() const { return kind != zcylinder; }
   int axis() const { return static_cast<int>(kind); }
-  int count() const { return is_plane() ? (has_lo ? 1 : 0) + (has_hi ? 1 : 0) : 1; }
+  /// Planes: lo and hi, or the one that there is; a cylinder: inner and outer side.
+  int count() const { return is_plane() ? (has_lo ? 1 : 0) + (has_hi ? 1 : 0) : 2; }
+  /// What a restart file calls a surface: 0 for lo and a cylinder's inner side, 1 for the other.
+  int face(int surface) const { return is_plane() && !has_lo ? 1 : surface; }
+  const char *kind_name() const
+  {
+    constexpr const char *names[] = {"xplane", "yplane", "zplane", "zcylinder"};
+    return names[kind];
+  }
 
   /// Position along the normal of the first surface; the radius of a cylinder.
   double position() const
@@ -50,7 +61,11 @@ class WallSurfaces {
   /// Whether nearest() would find an overlap: for the many particles that are nowhere near.
   bool reaches(int surface, const double *x, double particle_radius) const
   {
-    if (!is_plane()) return true;
+    if (!is_plane()) {
+      const double from_axis = distance_from_axis(x);
+      return is_inner(surface) == (from_axis < radius) &&
+          std::fabs(radius - from_axis) < particle_radius;
+    }
     return plane_distance(surface, x) < particle_radius;
   }
 
@@ -80,6 +95,9 @@ class WallSurfaces {
     return -point.curvature * (around - around.dot(point.normal) * point.normal);
   }
 
+  /// Whether a plane has its inner side towards + of the axis.
+  bool is_lower(int surface) const { return has_lo && surface == 0; }
+
   /// \param surface  0 .. count() - 1
   /// \param x  centre of a particle of radius `particle_radius`
   SurfacePoint nearest(int surface, const double *x, double particle_radius) const
@@ -97,7 +115,7 @@ class WallSurfaces {
     const double dx = x[0] - displacement[0];
     const double dy = x[1] - displacement[1];
     const double from_axis = distance_from_axis(x);
-    const double inside = from_axis < radius ? 1.0 : -1.0;
+    const double inside = is_inner(surface) ? 1.0 : -1.0;
     point.overlap = particle_radius - inside * (radius - from_axis);
     eepa::Vec3 radial(1.0, 0.0, 0.0);    // any direction serves a particle on the axis
     if (from_axis > 0.0) radial = eepa::Vec3(dx / from_axis, dy / from_axis, 0.0);
@@ -108,7 +126,7 @@ class WallSurfaces {
   }
 
  private:
-  bool is_lower(int surface) const { return has_lo && surface == 0; }
+  static bool is_inner(int surface) { return surface == 0; }
 
   double distance_from_axis(const double *x) const
   {

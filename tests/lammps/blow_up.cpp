@@ -137,14 +137,14 @@ class OtherFormat : public testing::Test {
 
 TEST_F(OtherFormat, OfTheWallIsRefusedByName)
 {
-  for (const int other : {1, 9}) {    // 1 had no platen
+  for (const int other : {2, 9}) {    // 2 did not say which surface
     write();
-    // format, values a particle, displacement
-    patch(2.0, {4.0, 0.0, 0.0, 16 * 0.0625 * 0.0001220703125}, other);
+    // format, how many numbers, zplane, lo, at 0
+    patch(3.0, {50.0, 2.0, 1.0, 0.0, 0.0}, other);
     Simulation restarted;
     EXPECT_TRUE(refuses(restarted, "read_restart " + file.name() + "\n" + box + wall,
                         "fix wall wall/gran/eepa: the restart file has format " +
-                            std::to_string(other) + ", this version reads 2"));
+                            std::to_string(other) + ", this version reads 3"));
   }
 }
 

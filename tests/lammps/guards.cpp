@@ -31,7 +31,7 @@ TEST(ForcesOnceAStep, OtherIntegratorsAndCommandsAreNamed)
       refuses(simulation, "fix n all numdiff 1 1e-6\nrun 1",
               "gran/eepa can not be used with fix n numdiff, which calls the forces itself"));
   simulation(
-      "unfix n\ncompute b all born/matrix numdiff 1e-6 v\ncompute v all pressure NULL virial");
+      "unfix n\ncompute v all pressure NULL virial\ncompute b all born/matrix numdiff 1e-6 v");
   EXPECT_TRUE(refuses(simulation, "run 1",
                       "gran/eepa can not be used with compute b born/matrix, which calls"));
   simulation("uncompute b");

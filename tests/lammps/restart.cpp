@@ -399,7 +399,7 @@ TEST_F(RestartMismatch, OfTwistingIsRefused)
                       "read_restart " + file.name() + "\n" + restarted_box +
                           "fix wall all wall/gran/eepa linear coeff 1e4 4e4 5e3 -1 0.5 twisting "
                           "marshall wall zplane 0 NULL",
-                      "the restart file has 4 values a particle and the fix needs 5"));
+                      "the restart file has 4 values a contact and the fix needs 5"));
 }
 
 TEST_F(RestartMismatch, OfRollingSwitchedOffIsRefused)
@@ -421,7 +421,7 @@ TEST_F(RestartMismatch, OfRollingAtAWallIsRefused)
               "read_restart " + file.name() + "\n" + restarted_box +
                   "fix wall all wall/gran/eepa linear coeff 1e4 4e4 5e3 -1 0.5 rolling sds "
                   "1e3 1 0.1 wall zplane 0 NULL",
-              "fix wall wall/gran/eepa: the restart file has 4 values a particle and the fix "
+              "fix wall wall/gran/eepa: the restart file has 4 values a contact and the fix "
               "needs 7"));
 }
 
@@ -434,7 +434,7 @@ TEST_F(RestartMismatch, OfSurfacesIsRefused)
               "read_restart " + file.name() + "\n" + restarted_box +
                   "fix wall all wall/gran/eepa linear coeff 1e4 4e4 5e3 -1 0.5 wall zplane 0 "
                   "1",
-              "the restart file has 4 values a particle and the fix needs 8"));
+              "the wall of the restart file is zplane lo NULL, this one is zplane lo hi"));
 }
 
 TEST_F(RestartMismatch, OfTheFormatIsRefused)

@@ -487,28 +487,6 @@ TEST(LoadRestart, GoesOnToTheBit)
   }
 }
 
-// Position and velocity of a platen that is not there, or was not, are no one's.
-TEST(LoadRestart, NeedsThePlatenOnBothSides)
-{
-  const std::string wall =
-                        "fix wall all wall/gran/eepa linear coeff 1e4 4e4 5e3 -1 0.5 wall zplane "
-                        "0 NULL",
-                    load = " load 5 mass 1";
-  for (const bool driven : {true, false}) {
-    const ScratchFile file(".restart");
-    Simulation original, restarted;
-    open(original, {{Vec3(0, 0, 0.49)}}, 1e-4);
-    original("fix integrate all nve/sphere\n" + wall + (driven ? load : " velocity 0 0 0.1"));
-    original.run(10);
-    original("write_restart " + file.name());
-    EXPECT_TRUE(
-        refuses(restarted,
-                "read_restart " + file.name() + "\n" + restarted_box + wall + (driven ? "" : load),
-                std::string("fix wall wall/gran/eepa: the wall of the restart file is ") +
-                    (driven ? "" : "not ") + "driven by load"));
-  }
-}
-
 /* ---------------------------------------------------------------------- time step */
 
 // Four spheres under a platen: 0.2 sqrt(M/(4 k)) is that of a particle of mass 1 for M = 4.
@@ -627,8 +605,9 @@ const Mistake load_mistakes[] = {
      "only one of velocity, wiggle, shear and load is allowed"},
     {"zplane NULL 3 wiggle z 1 1 load 5 mass 1",
      "only one of velocity, wiggle, shear and load is allowed"},
-    {"zplane NULL 3 load 5 mass 1 shear x 1",
-     "only one of velocity, wiggle, shear and load is allowed"},
+    {"zplane NULL 3 load 5 mass 1 shear z 1",
+     "shear dimension z is not allowed: it must lie in the plane"},
+    {"zplane NULL 3 load 5 mass 1 shear x v_none\nrun 0", "shear variable none does not exist"},
     {"zplane NULL 3 load v_none mass 1\nrun 0", "load force variable none does not exist"},
     {"zplane NULL 3 load pressure v_none area 1 mass 1\nrun 0",
      "load pressure variable none does not exist"},

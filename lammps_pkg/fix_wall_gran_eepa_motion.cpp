@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// How FixWallGranEepa moves its surfaces: variables, steps, and changes of the drive.
+
+#include "fix_wall_gran_eepa.h"
+
+#include "error.h"
+#include "input.h"
+#include "modify.h"
+#include "update.h"
+#include "variable.h"
+
+#include <cmath>
+#include <stdexcept>
+
+using namespace LAMMPS_NS;
+using eepa::WallDrive;
+
+/* ---------------------------------------------------------------------- variables */
+
+void FixWallGranEepa::require_variables(const eepa::MotionArguments &args) const
+{
+  for (const auto &component : args.velocity) require_equal_style("velocity", component.variable);
+  require_equal_style("shear", args.shear.variable);
+  require_equal_style("load force", args.load.force.variable);
+  require_equal_style("load pressure", args.load.pressure.variable);
+  require_equal_style("load area", args.load.area.variable);
+}
+
+void FixWallGranEepa::require_equal_style(const char *what, const std::string &variable) const
+{
+  if (variable.empty()) return;
+  const int index = input->variable->find(variable.c_str());
+  if (index < 0)
+    error->all(FLERR, "fix {} wall/gran/eepa: {} variable {} does not exist", id, what, variable);
+  if (!input->variable->equalstyle(index))
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: {} variable {} is not allowed: it must be equal-style", id,
+               what, variable);
+}
+
+double FixWallGranEepa::evaluate(const char *what, const eepa::Quantity &quantity)
+{
+  if (quantity.variable.empty()) return quantity.value;
+  // `run pre no` calls no init(), and commands of `run every` come in between
+  require_equal_style(what, quantity.variable);
+  const double value =
+      input->variable->compute_equal(input->variable->find(quantity.variable.c_str()));
+  if (!std::isfinite(value))
+    error->all(FLERR, "fix {} wall/gran/eepa: {} variable {} = {} at step {} is not finite", id,
+               what, quantity.variable, value, update->ntimestep);
+  return value;
+}
+
+/// The velocities that the user gives. Their variables may ask for this fix's own vector.
+void FixWallGranEepa::evaluate_motion()
+{
+  bool any = !told.shear.variable.empty();
+  for (const auto &component : told.velocity) any |= !component.variable.empty();
+  if (!any) return;
+  modify->clearstep_compute();
+  // all of them before one is used
+  WallMotion::Vector given;
+  for (int k = 0; k < 3; k++) given[k] = evaluate("velocity", told.velocity[k]);
+  sliding = evaluate("shear", told.shear);
+  motion.given = given;
+  modify->addstep_compute(update->ntimestep + 1);
+}
+
+/// The force from outside along the plane's axis. Its variables may ask for this fix's own vector.
+double FixWallGranEepa::evaluate_load()
+{
+  const eepa::LoadArguments &load = told.load;
+  const bool any = !load.force.variable.empty() || !load.pressure.variable.empty() ||
+      !load.area.variable.empty();
+  if (any) modify->clearstep_compute();
+  double applied;
+  if (load.by_pressure) {
+    const double pressure = evaluate("load pressure", load.pressure);
+    const double area = evaluate("load area", load.area);
+    if (area <= 0.0)
+      error->all(FLERR,
+                 "fix {} wall/gran/eepa: load area variable {} = {} at step {} is not allowed: it "
+                 "must be > 0",
+                 id, load.area.variable, area, update->ntimestep);
+    applied = pressure * area * surfaces.inward();
+  } else {
+    applied = evaluate("load force", load.force);
+  }
+  if (any) modify->addstep_compute(update->ntimestep + 1);
+  return applied;
+}
+
+/* ---------------------------------------------------------------------- steps */
+
+void FixWallGranEepa::initial_integrate(int /*vflag*/)
+{
+  // the positions that the next force call meets are those of the end of this step
+  evaluate_motion();
+  if (loaded()) platen.start_step(dt);
+  motion.advance(dt);
+}
+
+void FixWallGranEepa::final_integrate()
+{
+  if (loaded()) platen.end_step(load_now, felt_vector[FORCE_X + surfaces.axis()], dt);
+}
+
+/// Brings the surfaces to where motion and platen are.
+void FixWallGranEepa::place_surfaces()
+{
+  surfaces.lo = made_at[0];
+  surfaces.hi = made_at[1];
+  surfaces.displacement = motion.displacement;
+  surfaces.velocity = motion.velocity();
+  surfaces.surface_speed = 0.0;
+  if (loaded()) {
+    const int dim = surfaces.axis();
+    surfaces.place(platen.position);
+    surfaces.displacement[dim] = 0.0;
+    surfaces.velocity[dim] = platen.velocity;
+  }
+  if (told.slides) {
+    if (surfaces.is_plane() || told.shear_axis == 2)
+      surfaces.velocity[told.shear_axis] = sliding;
+    else
+      surfaces.surface_speed = sliding;
+  }
+}
+
+/* ---------------------------------------------------------------------- changes of the drive */
+
+void FixWallGranEepa::require_limits(const eepa::LoadArguments &load, double place) const
+{
+  if (place < load.lowest || place > load.highest)
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: load limits {:.6g} to {:.6g} are not allowed: the plane is "
+               "at {:.6g}, outside of them",
+               id, load.lowest, load.highest, place);
+}
+
+void FixWallGranEepa::change_motion(const eepa::MotionArguments &next)
+{
+  const bool was_loaded = loaded(), is_loaded = next.drive == WallDrive::load;
+  // what the last step ended with
+  const double place = was_loaded ? platen.position : surfaces.position();
+  const double speed = was_loaded ? platen.velocity : surfaces.normal_velocity();
+  if (was_loaded) {
+    const int dim = surfaces.axis();
+    motion.displacement[dim] = place - made_at[surfaces.has_lo ? 0 : 1];
+    if (!is_loaded) platen.stop();
+  }
+  const double had = was_loaded && is_loaded ? platen.kinetic_energy() : 0.0;
+  told = next;
+  motion.drive = next.drive;
+  motion.wiggle_axis = next.wiggle_axis;
+  motion.amplitude = next.amplitude;
+  if (next.drive == WallDrive::wiggle) motion.period = next.period;
+  for (int k = 0; k < 3; k++) motion.given[k] = next.velocity[k].value;
+  sliding = next.shear.value;
+  motion.begin();
+  if (is_loaded) {
+    platen.mass = next.load.mass;
+    platen.damping = next.load.damping;
+    platen.lowest = next.load.lowest;
+    platen.highest = next.load.highest;
+    platen.start(place, speed, had);
+  }
+  place_surfaces();
+}
+
+/// fix_modify ID still|velocity ...|wiggle ...|shear ...|load ...
+int FixWallGranEepa::modify_param(int narg, char **arg)
+{
+  if (!eepa::is_motion(arg[0])) return 0;
+  const eepa::Words words(arg, arg + narg);
+  eepa::MotionArguments next;
+  std::size_t end = 0;
+  try {
+    end = eepa::parse_motion(words, 0, {"dynamic/dof", "energy", "virial", "respa"}, for_motion(),
+                             next);
+  } catch (const std::invalid_argument &e) {
+    error->all(FLERR, "fix_modify {} (wall/gran/eepa): {}", id, e.what());
+  }
+  require_variables(next);
+  if (next.drive == WallDrive::load)
+    require_limits(next.load, loaded() ? platen.position : surfaces.position());
+  change_motion(next);
+  return static_cast<int>(end);
+}
