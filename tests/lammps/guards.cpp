@@ -89,6 +89,15 @@ TEST(Advice, OnRotationIsGivenWhereFrictionCanNotTurn)
   EXPECT_EQ(count(log_of(rough + wall + "\nfix i all nve/sphere"), advice), 0);
 }
 
+TEST(Advice, OnHeatIsGivenWhereNoContactConductsIt)
+{
+  const std::string heat = "pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 0 0 0\n"
+                           "fix i all nve/sphere\n"
+                           "fix p all property/atom temperature heatflow ghost yes\n"
+                           "fix h all heat/flow constant 1.0";
+  EXPECT_EQ(count(log_of(heat), "fix h heat/flow: contacts of gran/eepa conduct no heat"), 1);
+}
+
 TEST(TiledCommunication, NeedsNewtonOff)
 {
   Simulation on, off;

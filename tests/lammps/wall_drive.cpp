@@ -187,6 +187,33 @@ TEST_F(WallRestartMisfit, OfTheSurfaceIsRefused)
   EXPECT_TRUE(refused("wall zcylinder 3.5", "wall zcylinder R = 3.5 is not allowed: it must be 3"));
 }
 
+// Another law reads the same histories in another way, and a plane stays where the file has it.
+TEST_F(WallRestartMisfit, OfLawAndPlaceIsSaid)
+{
+  write("wall zplane 0 NULL");
+  const std::string coefficients = " coeff 1e4 2e4 5e3 0 0.5 kt 1e3 wall zplane ";
+  const struct {
+    const char *law, *place, *words;
+  } changes[] = {{"plateau", "0 NULL", "the law was linear when the restart file was written"},
+                 {"linear exponent 1.5", "0 NULL", "exponent was 1 when the restart file"},
+                 {"linear", "0.25 NULL", "wall lo = 0.25 is not used"},
+                 {"linear", "0 NULL", ""}};
+  for (const auto &change : changes) {
+    const ScratchFile log(".log");
+    {
+      Simulation restarted(MPI_COMM_WORLD, log.name());
+      restarted("read_restart " + file.name() + "\n" + restarted_box + "fix w all wall/gran/eepa " +
+                change.law + coefficients + change.place);
+      restarted.run(0);
+      EXPECT_EQ(restarted.fix("w", POSITION), 0.0);
+    }
+    if (*change.words)
+      EXPECT_NE(log.text().find(change.words), std::string::npos) << change.words;
+    else
+      EXPECT_EQ(log.text().find("WARNING: fix w"), std::string::npos);
+  }
+}
+
 TEST_F(WallRestartMisfit, OfDamagedNumbersIsNamed)
 {
   const std::string wall = "wall zplane -0.0625 NULL";
