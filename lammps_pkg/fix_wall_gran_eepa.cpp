@@ -53,28 +53,7 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   coefficients = eepa::resolve(parameters, style.settings);
   iarg = parse_wall(narg, arg, iarg + 1);
   made_at = {surfaces.lo, surfaces.hi};
-  eepa::MotionArguments typed;
-  while (iarg < narg) {
-    const std::string key = arg[iarg];
-    if (key == "contacts") {
-      contact_table = true;
-      iarg++;
-    } else if (eepa::is_motion(key)) {
-      try {
-        if (typed.drive != eepa::WallDrive::still)
-          throw std::invalid_argument("only one of velocity, wiggle, shear and load is allowed, or "
-                                      "load and shear, side by side");
-        iarg = static_cast<int>(eepa::parse_motion(words, iarg, {"contacts"}, for_motion(), typed));
-      } catch (const std::invalid_argument &e) {
-        error->all(FLERR, "fix {} wall/gran/eepa: {}", id, e.what());
-      }
-    } else {
-      error->all(FLERR,
-                 "fix {} wall/gran/eepa: keyword '{}' is unknown: it must be velocity, wiggle, "
-                 "shear, load or contacts",
-                 id, key);
-    }
-  }
+  const eepa::MotionArguments typed = read_motion(eepa::Words(words.begin() + iarg, words.end()));
   place_surfaces();
   change_motion(typed);
 
@@ -101,6 +80,27 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
   for (int i = 0; i < atom->nlocal; i++) FixWallGranEepa::set_arrays(i);
+}
+
+/// The motion among the last words of the command; `contacts` may stand anywhere there.
+eepa::MotionArguments FixWallGranEepa::read_motion(eepa::Words words)
+{
+  const auto end = std::remove(words.begin(), words.end(), "contacts");
+  contact_table = end != words.end();
+  words.erase(end, words.end());
+  eepa::MotionArguments typed;
+  std::size_t read = 0;
+  try {
+    read = eepa::parse_motion(words, 0, {}, for_motion(), typed);
+  } catch (const std::invalid_argument &e) {
+    error->all(FLERR, "fix {} wall/gran/eepa: {}", id, e.what());
+  }
+  if (read < words.size())
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: keyword '{}' is unknown: it must be velocity, wiggle, "
+               "shear, load, still or contacts",
+               id, words[read]);
+  return typed;
 }
 
 FixWallGranEepa::~FixWallGranEepa()

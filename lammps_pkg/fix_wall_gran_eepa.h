@@ -141,9 +141,10 @@ class FixWallGranEepa : public Fix {
   bool ledger_starts = false;    // with the next step: no ledger has booked the one before
   bool after_setup = false;      // whether the last force call was a set-up's
   std::vector<class ComputeGranEepaEnergyAtom *> atom_losses;    // who wants them by particle
-  double power = 0.0;    // of the surfaces on this rank's particles, at the last force call
-  double push = 0.0;     // of the platen on them along its axis, likewise
-  double drag = 0.0;     // power of a platen's sliding surface on them, likewise
+  double power = 0.0;          // of the surfaces on this rank's particles, at the last force call
+  bool needs_setup = false;    // a platen whose forces no force call has found yet
+  double push = 0.0;           // of the platen on them along its axis, likewise
+  double drag = 0.0;           // power of a platen's sliding surface on them, likewise
 
   typedef void (FixWallGranEepa::*Loop)();
   Loop loop = nullptr;
@@ -173,6 +174,7 @@ class FixWallGranEepa : public Fix {
   void check_platen();
   void book(int i, const eepa::Dissipation &);
   std::string style_name() const;
+  eepa::MotionArguments read_motion(eepa::Words);
   void warn_of_rotation();
   void check_time_step();
   void complain(const std::string &message);

@@ -30,6 +30,7 @@ void FixWallGranEepa::setup(int vflag)
   time_step_warned = false;
   check_time_step();
   post_force(vflag);
+  needs_setup = false;
 }
 
 void FixWallGranEepa::post_force(int /*vflag*/)
@@ -137,6 +138,7 @@ template <class ContactLaw> void FixWallGranEepa::contact_loop()
     for (int surface = 0; surface < n_surfaces; surface++) {
       double *values = history[i] + static_cast<std::ptrdiff_t>(surface) * ContactLaw::history_size;
       const bool known = values[eepa::MAX_OVERLAP] != 0.0;
+      if (!known && !surfaces.on_side(surface, x[i])) continue;
       // a set-up leaves no history: who touched then?
       const bool unknown_is_new = !(keep_ledger && after_setup && store);
       if (!known && (!member || (unknown_is_new && !surfaces.reaches(surface, x[i], radius[i]))))

@@ -95,6 +95,11 @@ double FixWallGranEepa::evaluate_load()
 
 void FixWallGranEepa::initial_integrate(int /*vflag*/)
 {
+  if (needs_setup)
+    error->all(FLERR,
+               "{}: load was given by fix_modify after the last set-up, and its forces are not "
+               "known: a run with pre no can not follow; leave pre no away",
+               style_name());
   // the positions that the next force call meets are those of the end of this step
   evaluate_motion();
   if (loaded()) platen.start_step(dt);
@@ -165,6 +170,7 @@ void FixWallGranEepa::change_motion(const eepa::MotionArguments &next)
     platen.lowest = next.load.lowest;
     platen.highest = next.load.highest;
     platen.start(place, speed, had);
+    needs_setup = true;
   }
   place_surfaces();
 }

@@ -130,6 +130,8 @@ class PairGranEepa : public Pair {
   std::vector<double> max_radius_dynamic, max_radius_frozen;    // by type
   bool plateau_warned = false, narrow_box_warned = false;
   bool time_step_warned = false;    // in this run
+  bool particles_come = false;      // by a fix that inserts them
+  bigint checked_particles = 0;     // how many there were when the time step was checked
   bool rotation_warned = false, heat_warned = false, rerun_warned = false;
 
   EnergyLedger ledger;

@@ -36,8 +36,10 @@ void PairGranEepa::init_radii()
   std::vector<double> dynamic(n + 1, 0.5 * style.largest_diameter), frozen(n + 1, 0.0);
   dynamic[0] = 0.0;    // types count from 1
   // particles that fix pour and fix deposit will insert
+  particles_come = false;
   for (const char *inserting : {"^pour", "^deposit"}) {
     for (auto *fix : modify->get_fix_by_style(inserting)) {
+      particles_come = true;
       for (int itype = 1; itype <= n; itype++) {
         int dim = itype;
         const auto *radius = static_cast<double *>(fix->extract("radius", dim));
@@ -139,6 +141,7 @@ TimeStepBound PairGranEepa::largest_time_step(const std::vector<AnnouncedParticl
 void PairGranEepa::check_time_step()
 {
   time_step_warned = false;
+  checked_particles = atom->natoms;
   if (style.time_step_check == eepa::TimeStepCheck::off) return;
   const TimeStepBound bound = largest_time_step();
   if (update->dt <= bound.time_step) return;
@@ -153,10 +156,15 @@ void PairGranEepa::check_time_step()
 }
 
 /// Particles that came in mid-run were not there when the time step was checked. Their largest
-/// partners were: fixes that insert particles announce their radii.
+/// partners were: fixes that insert particles announce their radii. Collective.
 void PairGranEepa::check_newcomers()
 {
   if (style.time_step_check == eepa::TimeStepCheck::off || time_step_warned) return;
+  // where nobody inserts particles no rank asks the others
+  if (!particles_come && atom->natoms == checked_particles) return;
+  checked_particles = atom->natoms;
+  double bound = never;
+  int worst = -1;
   for (const int i : fix_history->newcomers()) {
     const double mass = masses.mass(i);
     if (std::isinf(mass)) continue;
@@ -165,20 +173,29 @@ void PairGranEepa::check_newcomers()
       const double partner =
           std::max(largest_partner(jtype), jtype == itype ? atom->radius[i] : 0.0);
       if (partner == 0.0) continue;
-      const double bound =
+      const double own =
           eepa::largest_time_step(mass,
                                   eepa::largest_stiffness(coefficients[pair_index(itype, jtype)],
                                                           atom->radius[i] + partner));
-      if (update->dt <= bound) continue;
-      time_step_warned = true;
-      const auto message =
-          fmt::format("{}: timestep {:.6g} is larger than {:.6g} = 0.2 sqrt(m_min/k_max), which "
-                      "atom {} of type {} and diameter {:.6g} sets, inserted by step {}",
-                      style_name, update->dt, bound, atom->tag[i], itype, 2.0 * atom->radius[i],
-                      update->ntimestep);
-      if (style.time_step_check == eepa::TimeStepCheck::error) error->one(FLERR, message);
-      error->warning(FLERR, message);
-      return;
+      if (own >= bound) continue;
+      bound = own;
+      worst = i;
     }
   }
+  // of all ranks the one with the smallest bound speaks
+  struct {
+    double bound;
+    int rank;
+  } mine = {bound, comm->me}, least;
+  MPI_Allreduce(&mine, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
+  if (update->dt <= least.bound) return;
+  time_step_warned = true;
+  if (comm->me != least.rank) return;
+  const auto message =
+      fmt::format("{}: timestep {:.6g} is larger than {:.6g} = 0.2 sqrt(m_min/k_max), which atom "
+                  "{} of type {} and diameter {:.6g} sets, inserted by step {}",
+                  style_name, update->dt, bound, atom->tag[worst], atom->type[worst],
+                  2.0 * atom->radius[worst], update->ntimestep);
+  if (style.time_step_check == eepa::TimeStepCheck::error) error->one(FLERR, message);
+  error->warning(FLERR, message);
 }

@@ -58,14 +58,17 @@ class WallSurfaces {
   double inward() const { return has_lo ? 1.0 : -1.0; }
   double normal_velocity() const { return is_plane() ? velocity[axis()] : 0.0; }
 
+  /// Whether a new contact at x would be one with this surface and not with the other side.
+  bool on_side(int surface, const double *x) const
+  {
+    return is_plane() || is_inner(surface) == (distance_from_axis(x) < radius);
+  }
+
   /// Whether nearest() would find an overlap: for the many particles that are nowhere near.
   bool reaches(int surface, const double *x, double particle_radius) const
   {
-    if (!is_plane()) {
-      const double from_axis = distance_from_axis(x);
-      return is_inner(surface) == (from_axis < radius) &&
-          std::fabs(radius - from_axis) < particle_radius;
-    }
+    if (!is_plane())
+      return on_side(surface, x) && std::fabs(radius - distance_from_axis(x)) < particle_radius;
     return plane_distance(surface, x) < particle_radius;
   }
 

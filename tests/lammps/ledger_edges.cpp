@@ -201,4 +201,25 @@ TEST(ParallelLedgerRebuild, ChangesNothing)
   EXPECT_GT(every[3], 1.0);
 }
 
+// In the first step after a set-up the ledger asks who touched then: not the far side of a cylinder.
+TEST(LedgerCylinder, IsKeptOnBothSidesOverRuns)
+{
+  for (const double x : {1.52, 1.48, 1.2, 2.48, 2.52, 2.9}) {
+    Simulation plain, kept;
+    double forces[2];
+    for (Simulation *simulation : {&plain, &kept}) {
+      simulation->open_box(5.0);
+      simulation->create({{Vec3(x, 0, 0), Vec3(x < 2.0 ? 0.2 : -0.2, 0.1, 0)}});
+      (*simulation)("pair_style zero 1.0\npair_coeff * *\nfix move all nve/sphere\ntimestep 1e-4\n"
+                    "fix w all wall/gran/eepa linear coeff 1e4 2e4 0 0 0.3 restitution 0.7 wall "
+                    "zcylinder 2");
+      if (simulation == &kept) (*simulation)("compute e all gran/eepa/energy");
+      simulation->run(200);
+      simulation->run(200);
+      forces[simulation == &kept] = simulation->particle(1).x.x();
+    }
+    EXPECT_EQ(forces[0], forces[1]) << x;
+  }
+}
+
 }    // namespace

@@ -397,6 +397,31 @@ TEST(LoadedSlide, DragsByFrictionAndMovesByItsLoad)
   EXPECT_NEAR(drag, 0.3 * normal, 1e-12 * normal);
 }
 
+// No force call has found what the new platen feels.
+TEST(ChangeOfDrive, ToALoadNeedsASetUp)
+{
+  Simulation simulation;
+  open(simulation, "wall zplane 0 NULL velocity 0 0 0.5");
+  simulation.run(5);
+  EXPECT_TRUE(refuses(simulation, "fix_modify w load 5 mass 1\nrun 2 pre no",
+                      "fix w wall/gran/eepa: load was given by fix_modify after the last set-up.*"
+                      "leave pre no away"));
+  EXPECT_EQ(simulation.thermo("step"), 6.0);
+  simulation("run 2 post no\nrun 2 pre no post no");
+}
+
+TEST(MotionKeywords, MayHaveContactsBetweenThem)
+{
+  const std::string wall =
+      "fix v all wall/gran/eepa linear coeff 1e4 2e4 0 0 0 wall zplane -4 NULL ";
+  Simulation simulation;
+  open(simulation, "wall zplane 0 NULL");
+  simulation(wall + "shear x 0.1 contacts load 1 mass 1\nunfix v\n" + wall +
+             "load 1 mass 1 contacts shear x 0.1\nunfix v");
+  EXPECT_TRUE(refuses(simulation, wall + "still contacts velocity 0 0 1",
+                      "only one of velocity, wiggle, shear and load is allowed"));
+}
+
 TEST(LoadedWall, HasFiniteEnergiesWithoutTime)
 {
   Simulation simulation;
