@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #include "compute_gran_eepa_dt.h"
 
-#include "eepa_commands.h"
 #include "find_contact_owners.h"
 #include "run_guards.h"
+
+#include <eepa_commands/commands.h>
 
 #include "atom.h"
 #include "comm.h"

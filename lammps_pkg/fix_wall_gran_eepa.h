@@ -11,15 +11,14 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 #include "fix.h"
 
 #include "contact_masses.h"
-#include "eepa_commands.h"
 #include "energy_ledger.h"
 #include "particle_sizes.h"
 #include "platen.h"
-#include "wall_commands.h"
 #include "wall_motion.h"
 #include "wall_surface.h"
 
 #include <eepa/coefficients.h>
+#include <eepa_commands/wall_commands.h>
 
 #include <array>
 #include <string>

@@ -7,12 +7,11 @@
 #include "contact_history.h"
 #include "run_guards.h"
 
-#include <eepa/mixing.h>
+#include <eepa_commands/mixing.h>
 
 #include "atom.h"
 #include "citeme.h"
 #include "comm.h"
-#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
@@ -24,8 +23,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 using namespace LAMMPS_NS;

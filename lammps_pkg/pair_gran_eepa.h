@@ -13,7 +13,6 @@ PairStyle(gran/eepa,PairGranEepa);
 #include "atom_losses.h"
 #include "contact_masses.h"
 #include "contact_slice.h"
-#include "eepa_commands.h"
 #include "energy_ledger.h"
 #include "particle_contact.h"
 #include "particle_sizes.h"
@@ -21,6 +20,7 @@ PairStyle(gran/eepa,PairGranEepa);
 #include <eepa/coefficients.h>
 #include <eepa/contact.h>
 #include <eepa/history.h>
+#include <eepa_commands/commands.h>
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef LMP_EEPA_WALL_MOTION_H
 #define LMP_EEPA_WALL_MOTION_H
 
-#include "wall_commands.h"
+#include <eepa_commands/wall_commands.h>
 
 #include <array>
 #include <cmath>

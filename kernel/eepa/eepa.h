@@ -7,8 +7,6 @@
 #include "contact_law.h"
 #include "dispatch.h"
 #include "dissipation.h"
-#include "mixing.h"
 #include "time_step.h"
-#include "validation.h"
 
 #endif

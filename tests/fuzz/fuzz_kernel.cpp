@@ -5,6 +5,7 @@
 // libFuzzer calls this; replay.cpp does where there is none.
 
 #include <eepa/eepa.h>
+#include <eepa_commands/validation.h>
 
 #include <algorithm>
 #include <array>

@@ -3,9 +3,8 @@
 // Any bytes, split at blanks, through the parser that pair_style, pair_coeff and the wall share.
 // libFuzzer calls this; replay.cpp does where there is none.
 
-#include "eepa_commands.h"
-
-#include <eepa/validation.h>
+#include <eepa_commands/commands.h>
+#include <eepa_commands/validation.h>
 
 #include <cstdint>
 #include <cstdio>

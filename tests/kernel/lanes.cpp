@@ -3,7 +3,6 @@
 // Contacts side by side are the same contacts: every lane gives the bits that a double gives.
 
 #include <eepa/dispatch.h>
-#include <eepa/validation.h>
 
 #include <gtest/gtest.h>
 

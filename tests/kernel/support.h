@@ -3,6 +3,8 @@
 #define EEPA_TESTS_KERNEL_SUPPORT_H
 
 #include <eepa/eepa.h>
+#include <eepa_commands/mixing.h>
+#include <eepa_commands/validation.h>
 
 #include <gtest/gtest.h>
 

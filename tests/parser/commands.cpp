@@ -3,7 +3,7 @@
 // The parser of pair_style, pair_coeff and wall arguments alone: what it reads, where it stops
 // and what it says of each mistake.
 
-#include "eepa_commands.h"
+#include <eepa_commands/commands.h>
 
 #include <gtest/gtest.h>
 

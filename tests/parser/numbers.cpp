@@ -2,7 +2,7 @@
 
 // What counts as a number.
 
-#include "eepa_commands.h"
+#include <eepa_commands/commands.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
-#ifndef LMP_EEPA_COMMANDS_H
-#define LMP_EEPA_COMMANDS_H
+#ifndef EEPA_COMMANDS_COMMANDS_H
+#define EEPA_COMMANDS_COMMANDS_H
 
 #include <eepa/parameters.h>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-only
-#ifndef EEPA_VALIDATION_H
-#define EEPA_VALIDATION_H
+#ifndef EEPA_COMMANDS_VALIDATION_H
+#define EEPA_COMMANDS_VALIDATION_H
 
-#include "parameters.h"
+#include <eepa/parameters.h>
 
 #include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
 
-// Host only: this is what the kernel asks of its input before a run, not a part of the hot loop.
+// What the kernel asks of its input before a run.
 
 namespace eepa {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
-#include "eepa_commands.h"
+#include "commands.h"
 
-#include <eepa/validation.h>
+#include "validation.h"
 
 #include <algorithm>
 #include <cctype>

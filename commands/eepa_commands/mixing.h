@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-only
-#ifndef EEPA_MIXING_H
-#define EEPA_MIXING_H
+#ifndef EEPA_COMMANDS_MIXING_H
+#define EEPA_COMMANDS_MIXING_H
 
-#include "parameters.h"
+#include <eepa/parameters.h>
 
 #include <cmath>
 #include <string>
-
-// Host only.
 
 namespace eepa {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-only
-#ifndef LMP_EEPA_WALL_COMMANDS_H
-#define LMP_EEPA_WALL_COMMANDS_H
+#ifndef EEPA_COMMANDS_WALL_COMMANDS_H
+#define EEPA_COMMANDS_WALL_COMMANDS_H
 
-#include "eepa_commands.h"
+#include "commands.h"
 
 #include <array>
 #include <string>
