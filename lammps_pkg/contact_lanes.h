@@ -2,14 +2,12 @@
 #ifndef LMP_EEPA_CONTACT_LANES_H
 #define LMP_EEPA_CONTACT_LANES_H
 
-// Gathers as many contacts as the kernel's Lanes hold, and scatters what they do: the same as
-// particle_contact.h, side by side.
+// Gathers the bodies of as many contacts as the kernel's Lanes hold, and scatters their wrenches.
 
 #include "contact_slice.h"
-#include "contact_status.h"
-#include "particle_contact.h"
+#include "particle_arrays.h"
 
-#include <eepa/contact_law.h>
+#include <eepa/status.h>
 
 #ifdef EEPA_HAS_LANES
 
@@ -27,28 +25,26 @@ class ContactLanes {
       i_[lane] = found[lane].i;
       j_[lane] = found[lane].j;
       history_[lane] = found[lane].history;
+      status_[lane] = found[lane].status;
     }
   }
 
   /// Evaluates the law, stores states and statuses and adds the forces.
-  /// \param f, torque  3 doubles an atom
   template <class ContactLaw>
-  EEPA_FUNCTION void evaluate(const eepa::Coefficients &c, bool limit_damping, double time_step,
-                              const ParticleArrays &p, double *f, double *torque,
+  EEPA_FUNCTION void evaluate(const eepa::Coefficients &c, double time_step,
+                              const ParticleArrays &p, const ForceArrays &forces,
                               ContactSlice &slice)
   {
+    using eepa::Lanes;
     using Layout = typename ContactLaw::Layout;
-    gather<ContactLaw::has_couple>(p, time_step, slice);
-    eepa::HistoryOf<eepa::Lanes> history = eepa::load_history<Layout>(history_);
-    const eepa::ResponseOf<eepa::Lanes> response =
-        ContactLaw::evaluate(c, limit_damping, contact_, time_step, history);
+    const eepa::Body<Lanes> i = bodies(p, i_), j = bodies(p, j_);
+    const eepa::ContactOf<Lanes> contact = eepa::contact_of<ContactLaw>(i, j, time_step);
+    note_depth(contact, eepa::min(i.radius, j.radius), slice);
+    eepa::HistoryOf<Lanes> history = eepa::load_history<Layout>(history_);
+    const eepa::ResponseOf<Lanes> response = ContactLaw::evaluate(c, contact, time_step, history);
     eepa::store_history<Layout>(history, history_);
-    store_status(response);
-
-    const Vector moment = ContactLaw::tangential_moment(response, contact_);
-    Vector torque_i = -arm_i_ * moment, torque_j = -arm_j_ * moment;
-    ContactLaw::add_couple(response, contact_, torque_i, torque_j);
-    scatter(ContactLaw::force_on_i(response, contact_), torque_i, torque_j, f, torque, slice);
+    eepa::ContactStatus::store(response, status_);
+    scatter(ContactLaw::wrench(response, contact), forces, slice);
   }
 
  private:
@@ -58,8 +54,7 @@ class ContactLanes {
   const FoundContact *found_;
   Index i_[width], j_[width];
   eepa::LanePointers<double> history_;
-  eepa::ContactOf<eepa::Lanes> contact_;
-  eepa::Lanes arm_i_, arm_j_;
+  eepa::LanePointers<int> status_;
 
   EEPA_FUNCTION static eepa::Lanes numbers(const double *array, const Index (&atoms)[width])
   {
@@ -73,55 +68,27 @@ class ContactLanes {
     for (int lane = 0; lane < width; lane++) at[lane] = array + 3 * atoms[lane];
     return eepa::gather_rows(at);
   }
-
-  /// As gather_contact().
-  template <bool WithCouple>
-  EEPA_FUNCTION void gather(const ParticleArrays &p, double time_step, ContactSlice &slice)
+  EEPA_FUNCTION static eepa::Body<eepa::Lanes> bodies(const ParticleArrays &p,
+                                                      const Index (&atoms)[width])
   {
-    using eepa::Lanes;
-    const Lanes radius_i = numbers(p.radius, i_), radius_j = numbers(p.radius, j_);
-    const Vector offset = rows(p.x, i_) - rows(p.x, j_);
-    const Lanes distance = sqrt(eepa::squared_length(offset));
-    contact_.size = radius_i + radius_j;
-    contact_.overlap = contact_.size - distance;
-    const Lanes inverse_distance = 1.0 / distance;
-    contact_.normal = inverse_distance * offset;
-    contact_.effective_mass = eepa::effective_mass(numbers(p.mass, i_), numbers(p.mass, j_));
-    contact_.velocity = rows(p.v, i_) - rows(p.v, j_);
-    arm_i_ = eepa::lever_arm(radius_i, contact_.overlap);
-    arm_j_ = eepa::lever_arm(radius_j, contact_.overlap);
-    const Vector omega_i = rows(p.omega, i_), omega_j = rows(p.omega, j_);
-    contact_.spin = arm_i_ * omega_i + arm_j_ * omega_j;
-    contact_.turn = eepa::turn_of_pair<Lanes>(contact_.normal, contact_.velocity, inverse_distance,
-                                              time_step);
-    contact_.twist = eepa::twist_of_pair<Lanes>(contact_.normal, omega_i + omega_j, time_step);
-    if constexpr (WithCouple) {
-      contact_.effective_radius = eepa::effective_radius(radius_i, radius_j);
-      contact_.angular_velocity = omega_i - omega_j;
-    }
-    const Lanes smaller_radius = eepa::smaller(radius_i, radius_j);
-    if (eepa::any(contact_.overlap > smaller_radius))
-      for (int lane = 0; lane < width; lane++)
-        slice.note_depth(found_[lane].i, found_[lane].j, contact_.overlap[lane],
-                         smaller_radius[lane]);
+    return {rows(p.x, atoms), rows(p.v, atoms), rows(p.omega, atoms), numbers(p.radius, atoms),
+            numbers(p.mass, atoms)};
   }
 
-  /// ContactStatus::of() of every lane; a branch is a double there, and its bits are added.
-  EEPA_FUNCTION void store_status(const eepa::ResponseOf<eepa::Lanes> &response) const
+  EEPA_FUNCTION void note_depth(const eepa::ContactOf<eepa::Lanes> &contact,
+                                const eepa::Lanes &smaller_radius, ContactSlice &slice) const
   {
-    using eepa::Lanes;
-    namespace simd = std::experimental;
-    Lanes status = Lanes(ContactStatus::touching) +
-        Lanes(1 << ContactStatus::branch_shift) * response.branch;
-    where(response.sliding, status) += Lanes(ContactStatus::sliding);
-    const auto whole = simd::static_simd_cast<simd::rebind_simd_t<int, Lanes>>(status);
-    for (int lane = 0; lane < width; lane++) *found_[lane].status = whole[lane];
+    const auto deep = eepa::too_deep(contact.overlap, smaller_radius);
+    if (!eepa::any(deep)) return;
+    for (int lane = 0; lane < width; lane++)
+      if (deep[lane]) slice.note_too_deep(found_[lane].i, found_[lane].j);
   }
 
-  EEPA_FUNCTION void scatter(const Vector &force, const Vector &torque_i, const Vector &torque_j,
-                             double *f, double *torque, ContactSlice &slice) const
+  EEPA_FUNCTION void scatter(const eepa::Wrench<eepa::Lanes> &wrench, const ForceArrays &forces,
+                             ContactSlice &slice) const
   {
-    const eepa::LaneRows push(force), turn_i(torque_i), turn_j(torque_j);
+    double *f = forces.f, *torque = forces.torque;
+    const eepa::LaneRows push(wrench.force), turn_i(wrench.torque_i), turn_j(wrench.torque_j);
     for (int lane = 0; lane < width; lane++) {
       push.add_to(f + 3 * i_[lane], lane);
       turn_i.add_to(torque + 3 * i_[lane], lane);

@@ -21,7 +21,7 @@ struct TouchingPair {
 /// The same with what the law needs looked up.
 struct FoundContact {
   int i, j;
-  int *status;        ///< see ContactStatus
+  int *status;        ///< see eepa::ContactStatus
   double *history;    ///< see eepa::HistoryIndex
 };
 
@@ -83,10 +83,9 @@ struct ContactSlice {
       deferred_losses.push_back({j, lost, 0.5 * factor});
   }
 
-  void note_depth(int i, int j, double overlap, double smaller_radius)
+  /// See eepa::too_deep(): the run is going to stop.
+  void note_too_deep(int i, int j)
   {
-    // the centre of one in the other: nothing that happens from here on has a meaning
-    if (overlap <= smaller_radius) return;
     deep_i = i;
     deep_j = j;
   }

@@ -71,7 +71,8 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
     size_peratom_cols = N_ATOM;
     peratom_freq = 1;
   }
-  history_size = eepa::history_size(parameters.rolling, parameters.twisting);
+  engine = make_contact_engine(style.settings, parameters.rolling, parameters.twisting);
+  history_size = engine->history_size();
   n_values = history_size * surfaces.count();
   maxexchange = n_values;
   dt = update->dt;

@@ -10,6 +10,7 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 
 #include "fix.h"
 
+#include "contact_engine.h"
 #include "contact_masses.h"
 #include "energy_ledger.h"
 #include "particle_sizes.h"
@@ -21,6 +22,7 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 #include <eepa_commands/wall_commands.h>
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -128,7 +130,7 @@ class FixWallGranEepa : public Fix {
   std::array<double, N_VECTOR> felt_vector;
   bool felt_summed = true;    // whether felt_vector has the sum over all ranks of `felt`
 
-  // the atoms that contact_loop() visits: all that can touch a surface before they are collected
+  // the atoms that a force call visits: all that can touch a surface before they are collected
   // again
   std::vector<int> candidates;
   WallSurfaces collected_at;        // the surfaces then
@@ -145,8 +147,8 @@ class FixWallGranEepa : public Fix {
   double push = 0.0;           // of the platen on them along its axis, likewise
   double drag = 0.0;           // power of a platen's sliding surface on them, likewise
 
-  typedef void (FixWallGranEepa::*Loop)();
-  Loop loop = nullptr;
+  std::unique_ptr<const ContactEngine> engine;    // of the law
+  StepRequest request;                            // of the force call that is under way
 
   int parse_wall(int narg, char **arg, int iarg);
   double position_word(const char *name, const char *word);
@@ -178,7 +180,12 @@ class FixWallGranEepa : public Fix {
   void check_time_step();
   void complain(const std::string &message);
   void stop_at_overlap(int i, int surface, double overlap) const;
-  template <class ContactLaw> void contact_loop();
+  /// Contacts of a particle with all surfaces, and with one.
+  void meet(int i);
+  void meet(int i, int surface, bool member);
+  double *history_of(int i, int surface) const;
+  void tabulate(int i, const eepa::Body<double> &, const eepa::WallPoint<double> &,
+                const ContactOutcome &);
 
   // restart files, fix_wall_gran_eepa_restart.cpp
   std::vector<double> restart_state() const;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Where FixWallGranEepa calls the law.
+// The force call of FixWallGranEepa.
 
 #include "fix_wall_gran_eepa.h"
 
 #include "compute_gran_eepa_energy_atom.h"
 
-#include <eepa/dispatch.h>
+#include <eepa/status.h>
 
 #include "atom.h"
 #include "comm.h"
@@ -35,10 +35,6 @@ void FixWallGranEepa::setup(int vflag)
 
 void FixWallGranEepa::post_force(int /*vflag*/)
 {
-  if (!loop)
-    eepa::with_law(style.settings, parameters, [this](auto law) {
-      loop = &FixWallGranEepa::contact_loop<decltype(law)>;
-    });
   if (masses.has_bodies() && neighbor->ago == 0) masses.collect_bodies();
   if (neighbor->ago == 0 && update->setupflag == 0 && atom->natoms > checked_particles)
     check_time_step();
@@ -53,8 +49,13 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   power = 0.0;
   atom_losses.clear();
   if (keep_ledger) atom_losses = ComputeGranEepaEnergyAtom::find(modify);
-  (this->*loop)();
   const bool step = update->setupflag == 0;
+  request.advance = step;
+  request.time_step = step ? dt : 0.0;
+  request.wants_energy = keep_ledger;
+  request.wants_losses = keep_ledger && step;
+  request.booked = !ledger_starts;
+  for (const int i : candidates) meet(i);
   after_setup = !step;
   if (step) ledger_starts = false;
   if (loaded()) {
@@ -111,107 +112,78 @@ void FixWallGranEepa::collect_candidates()
     std::fill_n(array_atom[0], static_cast<std::size_t>(atom->nlocal) * N_ATOM, 0.0);
 }
 
-template <class ContactLaw> void FixWallGranEepa::contact_loop()
+double *FixWallGranEepa::history_of(int i, int surface) const
 {
-  double **x = atom->x;
-  double **v = atom->v;
-  double **f = atom->f;
-  double **omega = atom->omega;
-  double **torque = atom->torque;
-  const double *radius = atom->radius;
-  const bool store = update->setupflag == 0;
-  const double time_step = store ? dt : 0.0;
-  const int n_surfaces = surfaces.count();
-  using Layout = typename ContactLaw::Layout;
-  const Vec3 wall_velocity(surfaces.velocity.data());
+  return history[i] + static_cast<std::ptrdiff_t>(surface) * history_size;
+}
 
-  eepa::Contact contact;
-  for (const int i : candidates) {
-    if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
-    // one that leaves the group in contact must not find its history when it comes back
-    const bool member = atom->mask[i] & groupbit;
-    if (!member && !keep_ledger) {
-      std::fill_n(history[i], n_values, 0.0);
-      continue;
-    }
-
-    for (int surface = 0; surface < n_surfaces; surface++) {
-      double *values = history[i] + static_cast<std::ptrdiff_t>(surface) * ContactLaw::history_size;
-      const bool known = values[eepa::MAX_OVERLAP] != 0.0;
-      if (!known && !surfaces.on_side(surface, x[i])) continue;
-      // a set-up leaves no history: who touched then?
-      const bool unknown_is_new = !(keep_ledger && after_setup && store);
-      if (!known && (!member || (unknown_is_new && !surfaces.reaches(surface, x[i], radius[i]))))
-        continue;
-      const SurfacePoint point = surfaces.nearest(surface, x[i], radius[i]);
-      if (point.overlap <= 0.0 && !known && unknown_is_new) continue;
-
-      contact.normal = point.normal;
-      contact.overlap = point.overlap;
-      contact.size = 2.0 * radius[i];
-      // the wall: a partner of infinite mass and radius that does not turn
-      const double mass = masses.mass(i);
-      contact.effective_mass = std::isinf(mass) ? 0.0 : mass;
-      contact.effective_radius = radius[i];
-      const double arm = eepa::lever_arm(radius[i], point.overlap);
-      contact.velocity = Vec3(v[i]) - point.velocity;
-      contact.spin = arm * Vec3(omega[i]);
-      contact.angular_velocity = Vec3(omega[i]);
-      contact.turn = 0.5 * time_step * surfaces.turning(point, Vec3(v[i]) - wall_velocity);
-      contact.twist =
-          eepa::twist_of_pair<double>(contact.normal, contact.angular_velocity, time_step);
-
-      eepa::History state = eepa::load_history<Layout>(values);
-      const bool touched = known ||
-          (!unknown_is_new && point.overlap + contact.velocity.dot(contact.normal) * dt > 0.0);
-      if (point.overlap <= 0.0 || !member) {
-        if (keep_ledger && touched && (store || !member))
-          book(i,
-               eepa::dissipation_of_opening<ContactLaw>(coefficients, contact, time_step, state,
-                                                        !ledger_starts));
-        eepa::store_history<Layout>(eepa::History(), values);
-        continue;
-      }
-      if (point.overlap > radius[i]) stop_at_overlap(i, surface, point.overlap);
-      const eepa::History before = state;
-      const eepa::Response response = ContactLaw::evaluate(
-          coefficients, style.settings.limit_damping, contact, time_step, state);
-      if (store) eepa::store_history<Layout>(state, values);
-
-      const Vec3 force = ContactLaw::force_on_i(response, contact);
-      if (keep_ledger) {
-        power += force.dot(point.velocity);
-        ledger.store(ContactLaw::stored_energy(coefficients, contact.size, contact.overlap, state),
-                     1.0);
-        if (store)
-          book(i,
-               eepa::dissipation_of_step<ContactLaw>(coefficients, contact, response, time_step,
-                                                     !touched, before, state, !ledger_starts));
-      }
-      Vec3 turn = -arm * ContactLaw::tangential_moment(response, contact), wall_turn = turn;
-      ContactLaw::add_couple(response, contact, turn, wall_turn);
-      for (int k = 0; k < 3; k++) {
-        f[i][k] += force[k];
-        torque[i][k] += turn[k];
-        felt[surface].force[k] -= force[k];
-      }
-      felt[surface].contacts += 1.0;
-
-      if (contact_table) {
-        double *row = array_atom[i];
-        row[ATOM_CONTACTS] += 1.0;
-        for (int k = 0; k < 3; k++) row[ATOM_FORCE_X + k] += force[k];
-        if (point.overlap > row[ATOM_OVERLAP]) {
-          const double reach = radius[i] - point.overlap;
-          for (int k = 0; k < 3; k++) row[ATOM_POINT_X + k] = x[i][k] - reach * point.normal[k];
-          row[ATOM_OVERLAP] = point.overlap;
-          row[ATOM_MAX_OVERLAP] = state.max_overlap;
-          row[ATOM_BRANCH] = static_cast<int>(response.branch);
-          row[ATOM_SLIP] = response.sliding ? 1.0 : 0.0;
-        }
-      }
-    }
+void FixWallGranEepa::meet(int i)
+{
+  if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
+  // one that leaves the group in contact must not find its history when it comes back
+  const bool member = atom->mask[i] & groupbit;
+  if (!member && !keep_ledger) {
+    std::fill_n(history[i], n_values, 0.0);
+    return;
   }
+  for (int surface = 0; surface < surfaces.count(); surface++) meet(i, surface, member);
+}
+
+void FixWallGranEepa::meet(int i, int surface, bool member)
+{
+  const double *x = atom->x[i];
+  const double radius = atom->radius[i];
+  double *values = history_of(i, surface);
+  const bool known = values[eepa::MAX_OVERLAP] != 0.0;
+  if (!known && !surfaces.on_side(surface, x)) return;
+  // a set-up leaves no history: who touched then?
+  const bool unknown_is_new = !(keep_ledger && after_setup && request.advance);
+  if (!known && (!member || (unknown_is_new && !surfaces.reaches(surface, x, radius)))) return;
+
+  const eepa::Body<double> body = {Vec3(x), Vec3(atom->v[i]), Vec3(atom->omega[i]), radius,
+                                   masses.mass(i)};
+  const eepa::WallPoint<double> point = surfaces.nearest(surface, body);
+  if (point.overlap <= 0.0 && !known && unknown_is_new) return;
+  const eepa::Contact contact = eepa::contact_at_wall(body, point, request.time_step);
+  const bool touched = known ||
+      (!unknown_is_new && point.overlap + contact.velocity.dot(contact.normal) * dt > 0.0);
+  if (point.overlap <= 0.0 || !member) {
+    if (keep_ledger && touched && (request.advance || !member))
+      book(i, engine->open(coefficients, request, contact, values));
+    std::fill_n(values, history_size, 0.0);
+    return;
+  }
+  if (eepa::too_deep(point.overlap, radius)) stop_at_overlap(i, surface, point.overlap);
+
+  const ContactOutcome outcome = engine->evaluate(coefficients, request, contact, !touched, values);
+  const eepa::Wrench<double> &wrench = outcome.wrench;
+  if (keep_ledger) {
+    power += wrench.force.dot(point.velocity);
+    ledger.store(outcome.energy, 1.0);
+    if (request.wants_losses) book(i, outcome.lost);
+  }
+  for (int k = 0; k < 3; k++) {
+    atom->f[i][k] += wrench.force[k];
+    atom->torque[i][k] += wrench.torque_i[k];
+    felt[surface].force[k] -= wrench.force[k];
+  }
+  felt[surface].contacts += 1.0;
+  if (contact_table) tabulate(i, body, point, outcome);
+}
+
+void FixWallGranEepa::tabulate(int i, const eepa::Body<double> &body,
+                               const eepa::WallPoint<double> &point, const ContactOutcome &outcome)
+{
+  double *row = array_atom[i];
+  row[ATOM_CONTACTS] += 1.0;
+  for (int k = 0; k < 3; k++) row[ATOM_FORCE_X + k] += outcome.wrench.force[k];
+  if (point.overlap <= row[ATOM_OVERLAP]) return;
+  const double reach = body.radius - point.overlap;
+  for (int k = 0; k < 3; k++) row[ATOM_POINT_X + k] = body.x[k] - reach * point.normal[k];
+  row[ATOM_OVERLAP] = point.overlap;
+  row[ATOM_MAX_OVERLAP] = outcome.max_overlap;
+  row[ATOM_BRANCH] = static_cast<int>(eepa::ContactStatus::branch(outcome.status));
+  row[ATOM_SLIP] = eepa::ContactStatus::slides(outcome.status) ? 1.0 : 0.0;
 }
 
 void FixWallGranEepa::book(int i, const eepa::Dissipation &lost)

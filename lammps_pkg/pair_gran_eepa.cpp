@@ -207,7 +207,7 @@ void PairGranEepa::init_style()
   // an opening that falls on a rebuild must be booked, so such a contact outlives its end
   fix_history->keep_parting_contacts(keep_ledger);
   warn_of_fixes();
-  choose_law();
+  engine = make_contact_engine(style.settings, rolling, twisting);
   coefficient_classes.clear();    // init_one() is still to come
   // last: after an error LAMMPS would keep the request of a pair style that may be gone
   neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);

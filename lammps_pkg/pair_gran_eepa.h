@@ -11,17 +11,16 @@ PairStyle(gran/eepa,PairGranEepa);
 #include "pair.h"
 
 #include "atom_losses.h"
+#include "contact_engine.h"
 #include "contact_masses.h"
 #include "contact_slice.h"
 #include "energy_ledger.h"
-#include "particle_contact.h"
 #include "particle_sizes.h"
 
 #include <eepa/coefficients.h>
-#include <eepa/contact.h>
-#include <eepa/history.h>
 #include <eepa_commands/commands.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -140,18 +139,13 @@ class PairGranEepa : public Pair {
   AtomLosses atom_losses;        // of this force call
   bool keep_atom_losses = false;
 
-  // the law's part of a force call, chosen once a run; `fully` also takes set-up calls, tallies
-  // energy and virial, keeps the ledger and weakens contacts between bonded particles
-  typedef void (PairGranEepa::*Evaluate)(ContactSlice &, const FoundContact *, int,
-                                         const eepa::Coefficients &);
-  Evaluate plainly = nullptr, fully = nullptr, evaluate = nullptr;
-  void (PairGranEepa::*book_opening)(ContactSlice &, int, int, const double *) = nullptr;
-  typedef double (PairGranEepa::*Single)(const eepa::Coefficients &, const eepa::Contact &,
-                                         const double *, double, double &);
-  Single single_law = nullptr;
+  std::unique_ptr<const ContactEngine> engine;    // of the law, made once a run
 
   // of the force call that is under way
   ParticleArrays particles;
+  ForceArrays forces;
+  StepRequest request;
+  bool in_lanes = false;    // only forces are asked for
   std::vector<ContactSlice> slices;
 
   int pair_index(int itype, int jtype) const
@@ -160,8 +154,6 @@ class PairGranEepa : public Pair {
   }
   int ntypes_allocated = 0;
   void allocate();
-  void choose_law();
-  void choose_single();
   void choose_classes();
   void init_history();
   void init_radii();
@@ -176,6 +168,8 @@ class PairGranEepa : public Pair {
   void warn_of_data_file() const;
   int find_history(int i, int j, const double *&values, double &sign) const;
   void require_their_distance(int i, int j, double rsq) const;
+  eepa::Body<double> lone_body(int i) const;
+  void tell(const eepa::Contact &, const ContactReport &);
 
   ParticleArrays particle_arrays();
   bool bonds_weaken_contacts() const;
@@ -187,18 +181,13 @@ class PairGranEepa : public Pair {
   void evaluate_block(ContactSlice &, int count);
   int drop_held_pairs(ContactSlice &, int count) const;
   void sort_by_class(ContactSlice &, int count) const;
-  template <class ContactLaw>
-  void evaluate_plainly(ContactSlice &, const FoundContact *, int, const eepa::Coefficients &);
-  template <class ContactLaw>
-  void evaluate_fully(ContactSlice &, const FoundContact *, int, const eepa::Coefficients &);
-  template <class ContactLaw>
-  void book_opening_of(ContactSlice &, int i, int neighbor, const double *values);
+  /// Evaluates contacts of one pair of types.
+  void evaluate(ContactSlice &, const FoundContact *, int count, const eepa::Coefficients &);
+  void evaluate_scalar(ContactSlice &, const FoundContact &, const eepa::Coefficients &);
+  void book_opening(ContactSlice &, int i, int neighbor, const double *history) const;
   double share_of_pair(int j) const;
   void hand_over_atom_losses();
   [[noreturn]] void stop_at_overlap(int i, int j) const;
-  template <class ContactLaw>
-  double single_contact(const eepa::Coefficients &, const eepa::Contact &, const double *values,
-                        double sign, double &normal_force);
 };
 
 }    // namespace LAMMPS_NS

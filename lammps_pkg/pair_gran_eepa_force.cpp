@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Where PairGranEepa calls the law: contacts are found first and evaluated then.
+// The force call of PairGranEepa: contacts are found first and evaluated then.
 
 #include "pair_gran_eepa.h"
 
 #include "compute_gran_eepa_energy_atom.h"
 #include "contact_history.h"
 #include "contact_lanes.h"
-#include "contact_status.h"
-#include "particle_contact.h"
 
-#include <eepa/dispatch.h>
+#include <eepa/status.h>
 
 #include "atom.h"
 #include "comm.h"
@@ -27,28 +25,6 @@
 
 using namespace LAMMPS_NS;
 using eepa::Vec3;
-
-namespace {
-Eigen::Map<Vec3> vector_at(double *array, int i)
-{
-  return Eigen::Map<Vec3>(array + 3 * static_cast<std::ptrdiff_t>(i));
-}
-}    // namespace
-
-void PairGranEepa::choose_law()
-{
-  eepa::with_law(style.settings, rolling, twisting, [this](auto law) {
-    using ContactLaw = decltype(law);
-    fully = &PairGranEepa::evaluate_fully<ContactLaw>;
-#ifdef EEPA_HAS_LANES
-    plainly = &PairGranEepa::evaluate_plainly<ContactLaw>;
-#else
-    plainly = fully;
-#endif
-    book_opening = &PairGranEepa::book_opening_of<ContactLaw>;
-  });
-  choose_single();
-}
 
 ParticleArrays PairGranEepa::particle_arrays()
 {
@@ -69,11 +45,16 @@ void PairGranEepa::compute(int eflag, int vflag)
     check_radii();
   }
   particles = particle_arrays();
-  const bool plain = !evflag && !keep_ledger && update->setupflag == 0 && !bonds_weaken_contacts();
-  evaluate = plain ? plainly : fully;
+  forces = {atom->f[0], atom->torque[0]};
+  request.advance = update->setupflag == 0;
+  request.time_step = request.advance ? dt : 0.0;
+  request.wants_energy = eflag_either || keep_ledger;
+  request.wants_losses = keep_ledger && request.advance;
+  request.booked = !ledger_starts;
+  in_lanes = !evflag && !keep_ledger && request.advance && !bonds_weaken_contacts();
   fix_history->force_is_computed();
-  keep_atom_losses = keep_ledger && update->setupflag == 0 &&
-      !ComputeGranEepaEnergyAtom::find(modify).empty();
+  keep_atom_losses =
+      keep_ledger && update->setupflag == 0 && !ComputeGranEepaEnergyAtom::find(modify).empty();
   if (keep_atom_losses) atom_losses.start(atom->nlocal + atom->nghost);
   ledger.elastic = eepa::StoredEnergy();
   work_through_list();
@@ -245,9 +226,8 @@ void PairGranEepa::open_contact(ContactSlice &slice, int i, int place)
 {
   const int size = history_size();
   double *values = fix_history->firstvalue[i] + static_cast<std::ptrdiff_t>(size) * place;
-  if (keep_ledger && update->setupflag == 0)
-    (this->*book_opening)(slice, i, list->firstneigh[i][place], values);
-  fix_history->firstflag[i][place] = ContactStatus::none;
+  if (request.wants_losses) book_opening(slice, i, list->firstneigh[i][place], values);
+  fix_history->firstflag[i][place] = eepa::ContactStatus::none;
   // a pair that does not touch has no history, so that a new contact need not ask
   std::fill_n(values, size, 0.0);
 }
@@ -270,13 +250,13 @@ void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
   }
   if (masses.holds_some()) count = drop_held_pairs(slice, count);
   if (coefficient_classes.size() == 1) {
-    (this->*evaluate)(slice, slice.contacts.data(), count, coefficient_classes.front());
+    evaluate(slice, slice.contacts.data(), count, coefficient_classes.front());
     return;
   }
   sort_by_class(slice, count);
   for (std::size_t c = 0; c < coefficient_classes.size(); c++)
-    (this->*evaluate)(slice, slice.sorted.data() + slice.class_begin[c],
-                      slice.class_begin[c + 1] - slice.class_begin[c], coefficient_classes[c]);
+    evaluate(slice, slice.sorted.data() + slice.class_begin[c],
+             slice.class_begin[c + 1] - slice.class_begin[c], coefficient_classes[c]);
 }
 
 /// Pairs that can not move each other are no contacts: what they have of a history stays as it is.
@@ -306,82 +286,45 @@ void PairGranEepa::sort_by_class(ContactSlice &slice, int count) const
 
 /* ---------------------------------------------------------------------- evaluating them */
 
-#ifdef EEPA_HAS_LANES
-template <class ContactLaw>
-void PairGranEepa::evaluate_plainly(ContactSlice &slice, const FoundContact *contacts, int count,
-                                    const eepa::Coefficients &given)
+void PairGranEepa::evaluate(ContactSlice &slice, const FoundContact *contacts, int count,
+                            const eepa::Coefficients &c)
 {
-  const eepa::Coefficients c = given;    // on the stack no force can overwrite it
-  const bool limit_damping = style.settings.limit_damping;
-  double *f = atom->f[0], *torque = atom->torque[0];
-  int n = 0;
-  for (; n + ContactLanes::width <= count; n += ContactLanes::width)
-    ContactLanes(contacts + n)
-        .evaluate<ContactLaw>(c, limit_damping, dt, particles, f, torque, slice);
-  evaluate_fully<ContactLaw>(slice, contacts + n, count - n, c);
+  const int done =
+      in_lanes ? engine->evaluate_lanes(c, dt, particles, forces, contacts, count, slice) : 0;
+  for (int n = done; n < count; n++) evaluate_scalar(slice, contacts[n], c);
 }
-#endif
 
-template <class ContactLaw>
-void PairGranEepa::evaluate_fully(ContactSlice &slice, const FoundContact *contacts, int count,
-                                  const eepa::Coefficients &c)
+void PairGranEepa::evaluate_scalar(ContactSlice &slice, const FoundContact &found,
+                                   const eepa::Coefficients &c)
 {
-  using Layout = typename ContactLaw::Layout;
-  // the set-up call computes forces from the stored state and leaves that as it is
-  const bool store = update->setupflag == 0;
-  const double time_step = store ? dt : 0.0;
-  const int nlocal = atom->nlocal;
-  const bool newton = force->newton_pair;
-  double *f = atom->f[0], *torque = atom->torque[0];
-  eepa::Contact contact;
-  for (const FoundContact *found = contacts; found != contacts + count; found++) {
-    const int i = found->i, j = found->j;
-    const int place = static_cast<int>(found->status - fix_history->firstflag[i]);
-    const double factor = force->special_lj[sbmask(list->firstneigh[i][place])];
-    if (factor == 0.0) continue;
+  const int i = found.i, j = found.j;
+  const int place = static_cast<int>(found.status - fix_history->firstflag[i]);
+  const double factor = force->special_lj[sbmask(list->firstneigh[i][place])];
+  if (factor == 0.0) return;
 
-    const Vec3 offset = particles.at(particles.x, i) - particles.at(particles.x, j);
-    const LeverArms arms = gather_contact<ContactLaw::has_couple>(
-        particles, i, j, offset, eepa::squared_length<double>(offset), time_step, contact);
-    slice.note_depth(i, j, contact.overlap, std::min(particles.radius[i], particles.radius[j]));
+  const eepa::Contact contact =
+      eepa::contact_of(particles.body(i), particles.body(j), request.time_step);
+  if (eepa::too_deep(contact.overlap, std::min(particles.radius[i], particles.radius[j])))
+    slice.note_too_deep(i, j);
+  const bool first = *found.status == eepa::ContactStatus::none;
+  const ContactOutcome outcome = engine->evaluate(c, request, contact, first, found.history);
+  *found.status = outcome.status;
 
-    eepa::History history = eepa::load_history<Layout>(found->history);
-    const eepa::History before = history;
-    const bool first = !*found->status;
-    eepa::Response response =
-        ContactLaw::evaluate(c, style.settings.limit_damping, contact, time_step, history);
-    *found->status = ContactStatus::of(response.branch, response.sliding);
-    if (store) eepa::store_history<Layout>(history, found->history);
-
-    eepa::StoredEnergy energy;
-    if (eflag_either || keep_ledger)
-      energy = ContactLaw::stored_energy(c, contact.size, contact.overlap, history);
-    if (keep_ledger) {
-      const double share = share_of_pair(j);
-      slice.ledger.store(energy, factor * share);
-      if (store)
-        slice.book(i, j,
-                   eepa::dissipation_of_step<ContactLaw>(c, contact, response, time_step, first,
-                                                         before, history, !ledger_starts),
-                   factor, share);
-    }
-
-    const Vec3 pair_force = factor * ContactLaw::force_on_i(response, contact);
-    const Vec3 moment = ContactLaw::tangential_moment(response, contact);
-    Vec3 torque_i = -arms.i * moment, torque_j = -arms.j * moment;
-    ContactLaw::add_couple(response, contact, torque_i, torque_j);
-    vector_at(f, i) += pair_force;
-    vector_at(torque, i) += factor * torque_i;
-    if (slice.writes(j)) {
-      vector_at(f, j) -= pair_force;
-      vector_at(torque, j) += factor * torque_j;
-    } else if (slice.defers(j)) {
-      slice.deferred.push_back({j, -pair_force, factor * torque_j});
-    }
-    if (evflag)
-      ev_tally_xyz(i, j, nlocal, newton, factor * energy.total(), 0.0, pair_force[0], pair_force[1],
-                   pair_force[2], offset[0], offset[1], offset[2]);
+  if (keep_ledger) {
+    const double share = share_of_pair(j);
+    slice.ledger.store(outcome.energy, factor * share);
+    if (request.wants_losses) slice.book(i, j, outcome.lost, factor, share);
   }
+  const Vec3 pair_force = factor * outcome.wrench.force;
+  forces.add(i, pair_force, factor * outcome.wrench.torque_i);
+  if (slice.writes(j))
+    forces.add(j, -pair_force, factor * outcome.wrench.torque_j);
+  else if (slice.defers(j))
+    slice.deferred.push_back({j, -pair_force, factor * outcome.wrench.torque_j});
+  if (!evflag) return;
+  const Vec3 offset = particles.at(particles.x, i) - particles.at(particles.x, j);
+  ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, factor * outcome.energy.total(), 0.0,
+               pair_force[0], pair_force[1], pair_force[2], offset[0], offset[1], offset[2]);
 }
 
 double PairGranEepa::share_of_pair(int j) const
@@ -390,18 +333,15 @@ double PairGranEepa::share_of_pair(int j) const
   return (force->newton_pair || j < atom->nlocal) ? 1.0 : 0.5;
 }
 
-template <class ContactLaw>
-void PairGranEepa::book_opening_of(ContactSlice &slice, int i, int neighbor, const double *values)
+void PairGranEepa::book_opening(ContactSlice &slice, int i, int neighbor,
+                                const double *history) const
 {
   const int j = neighbor & NEIGHMASK;
-  eepa::Contact contact;
-  const Vec3 offset = particles.at(particles.x, i) - particles.at(particles.x, j);
-  gather_contact<true>(particles, i, j, offset, eepa::squared_length<double>(offset), dt, contact);
-  slice.book(i, j,
-             eepa::dissipation_of_opening<ContactLaw>(
-                 coefficients[pair_index(atom->type[i], atom->type[j])], contact, dt,
-                 eepa::load_history<typename ContactLaw::Layout>(values), !ledger_starts),
-             force->special_lj[sbmask(neighbor)], share_of_pair(j));
+  const eepa::Contact contact =
+      eepa::contact_of(particles.body(i), particles.body(j), request.time_step);
+  const eepa::Coefficients &c = coefficients[pair_index(atom->type[i], atom->type[j])];
+  slice.book(i, j, engine->open(c, request, contact, history), force->special_lj[sbmask(neighbor)],
+             share_of_pair(j));
 }
 
 void PairGranEepa::stop_at_overlap(int i, int j) const

@@ -5,10 +5,8 @@
 #include "pair_gran_eepa.h"
 
 #include "contact_history.h"
-#include "contact_status.h"
-#include "particle_contact.h"
 
-#include <eepa/dispatch.h>
+#include <eepa/status.h>
 
 #include "atom.h"
 #include "error.h"
@@ -21,13 +19,6 @@
 
 using namespace LAMMPS_NS;
 using eepa::Vec3;
-
-void PairGranEepa::choose_single()
-{
-  eepa::with_law(style.settings, rolling, twisting, [this](auto law) {
-    single_law = &PairGranEepa::single_contact<decltype(law)>;
-  });
-}
 
 int PairGranEepa::find_history(int i, int j, const double *&values, double &sign) const
 {
@@ -44,21 +35,21 @@ int PairGranEepa::find_history(int i, int j, const double *&values, double &sign
       return fix_history->firstflag[owner][jj];
     }
   }
-  return ContactStatus::none;
+  return eepa::ContactStatus::none;
 }
 
 void PairGranEepa::require_their_distance(int i, int j, double rsq) const
 {
   const int known = atom->nlocal + atom->nghost;
-  const double there = std::max(i, j) < known
-      ? (Vec3(atom->x[i]) - Vec3(atom->x[j])).squaredNorm()
-      : std::numeric_limits<double>::infinity();
+  const double there = std::max(i, j) < known ? (Vec3(atom->x[i]) - Vec3(atom->x[j])).squaredNorm()
+                                              : std::numeric_limits<double>::infinity();
   if (std::fabs(rsq - there) <= 1e-9 * there) return;
-  error->one(FLERR,
-             "pair_style gran/eepa: the force of a contact depends on its history and exists only "
-             "for particles where they are, not for any distance ({:.6g} was asked for); pair_write, "
-             "fix widom and fix gcmc can not be used",
-             std::sqrt(rsq));
+  error->one(
+      FLERR,
+      "pair_style gran/eepa: the force of a contact depends on its history and exists only "
+      "for particles where they are, not for any distance ({:.6g} was asked for); pair_write, "
+      "fix widom and fix gcmc can not be used",
+      std::sqrt(rsq));
 }
 
 double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, double /*factor_coul*/,
@@ -68,70 +59,57 @@ double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, doub
   fforce = 0.0;
   for (int k = 0; k < single_extra; k++) svector[k] = 0.0;
   const double reach = atom->radius[i] + atom->radius[j];
-  if (rsq >= reach * reach || !single_law) return 0.0;
+  if (rsq >= reach * reach || !engine) return 0.0;
   if (masses.holds_some() && masses.hold_together(i, j)) return 0.0;
 
-  // the masses of these two alone: compute pair/local asks for every pair
-  const ParticleArrays particles = {atom->x[0], atom->v[0], atom->omega[0], atom->radius,
-                                    atom->rmass};
-  eepa::Contact contact;
-  gather_contact<true>(particles, i, j, particles.at(particles.x, i) - particles.at(particles.x, j),
-                       rsq, 0.0, contact);
-  contact.effective_mass = eepa::effective_mass(masses.mass(i), masses.mass(j));
-  const double *values = nullptr;
+  const eepa::Contact contact = eepa::contact_of(lone_body(i), lone_body(j), 0.0);
+  const double *history = nullptr;
   double sign = 1.0;
-  const int status = find_history(i, j, values, sign);
-  const double energy = (this->*single_law)(coefficients[pair_index(itype, jtype)], contact,
-                                            status ? values : nullptr, sign, fforce);
+  const int status = find_history(i, j, history, sign);
+  const ContactReport report = engine->report(coefficients[pair_index(itype, jtype)], contact,
+                                              status ? history : nullptr, sign);
+  tell(contact, report);
   // what the last step found, where it saw this contact: a second evaluation can not tell the
   // end of the adhesive branch from the start of the line that leaves it
-  if (status > ContactStatus::touching) {
-    svector[BRANCH] = static_cast<int>(ContactStatus::branch(status));
-    svector[SLIP] = (status & ContactStatus::sliding) ? 1.0 : 0.0;
+  if (status > eepa::ContactStatus::touching) {
+    svector[BRANCH] = static_cast<int>(eepa::ContactStatus::branch(status));
+    svector[SLIP] = eepa::ContactStatus::slides(status) ? 1.0 : 0.0;
   }
   // as special_bonds weakens a contact, all its forces, torques and energies
   for (int k = 0; k < N_SINGLE; k++)
     if (k < BRANCH || k > SLIP) svector[k] *= factor_lj;
-  fforce *= factor_lj / std::sqrt(rsq);
-  return factor_lj * energy;
+  fforce = report.response.normal_force * (factor_lj / std::sqrt(rsq));
+  return factor_lj * report.energy.total();
 }
 
-template <class ContactLaw>
-double PairGranEepa::single_contact(const eepa::Coefficients &c, const eepa::Contact &contact,
-                                    const double *values, double sign, double &normal_force)
+/// A particle with its mass alone, while compute() gets the masses of all: compute pair/local asks
+/// for every pair.
+eepa::Body<double> PairGranEepa::lone_body(int i) const
 {
-  eepa::History history;
-  if (values) {
-    history = eepa::load_history<typename ContactLaw::Layout>(values);
-    // a twist has the same sign for both
-    history.tangential_spring *= sign;
-    history.rolling_spring *= sign;
-  }
-  // the energies are those of the springs as the last step left them: an evaluation with the
-  // velocities of the end of the step could let a sliding contact slip once more
-  const eepa::History stored = history;
-  const eepa::Response evaluated =
-      ContactLaw::evaluate(c, style.settings.limit_damping, contact, 0.0, history);
-  const eepa::StoredEnergy energy = ContactLaw::stored_energy(
-      c, contact.size, contact.overlap, stored.max_overlap > 0.0 ? stored : history);
-  normal_force = evaluated.normal_force;
-  svector[BRANCH] = static_cast<int>(evaluated.branch);
+  return {Vec3(atom->x[i]), Vec3(atom->v[i]), Vec3(atom->omega[i]), atom->radius[i],
+          masses.mass(i)};
+}
+
+void PairGranEepa::tell(const eepa::Contact &contact, const ContactReport &report)
+{
+  const eepa::Response &response = report.response;
+  svector[BRANCH] = static_cast<int>(response.branch);
   svector[OVERLAP] = contact.overlap;
-  svector[MAX_OVERLAP] = history.max_overlap;
-  svector[PLASTIC_OVERLAP] = ContactLaw::Normal::plastic_overlap(c, history.max_overlap);
-  svector[SLIP] = evaluated.sliding ? 1.0 : 0.0;
-  for (int k = 0; k < 3; k++) svector[TANGENTIAL_X + k] = evaluated.tangential_force[k];
-  svector[TANGENTIAL] = evaluated.tangential_force.norm();
-  svector[HYSTERETIC] = evaluated.hysteretic_force;
-  svector[FRICTION_BOUND] = evaluated.friction_bound;
-  svector[ENERGY_NORMAL] = energy.normal;
-  svector[ENERGY_TANGENTIAL] = energy.tangential;
-  svector[ENERGY_ROLLING] = energy.rolling;
-  if constexpr (ContactLaw::has_rolling)
-    for (int k = 0; k < 3; k++) svector[ROLLING_TORQUE_X + k] = evaluated.rolling_torque[k];
-  if constexpr (ContactLaw::has_twisting) svector[TWISTING_TORQUE] = evaluated.twisting_torque;
-  svector[ENERGY_TWISTING] = energy.twisting;
-  return energy.total();
+  svector[MAX_OVERLAP] = report.max_overlap;
+  svector[PLASTIC_OVERLAP] = report.plastic_overlap;
+  svector[SLIP] = response.sliding ? 1.0 : 0.0;
+  svector[TANGENTIAL] = response.tangential_force.norm();
+  svector[HYSTERETIC] = response.hysteretic_force;
+  svector[FRICTION_BOUND] = response.friction_bound;
+  svector[ENERGY_NORMAL] = report.energy.normal;
+  svector[ENERGY_TANGENTIAL] = report.energy.tangential;
+  svector[ENERGY_ROLLING] = report.energy.rolling;
+  for (int k = 0; k < 3; k++) {
+    svector[TANGENTIAL_X + k] = response.tangential_force[k];
+    svector[ROLLING_TORQUE_X + k] = response.rolling_torque[k];
+  }
+  svector[TWISTING_TORQUE] = response.twisting_torque;
+  svector[ENERGY_TWISTING] = report.energy.twisting;
 }
 
 ContactCensus PairGranEepa::census(int groupbit)
@@ -151,12 +129,12 @@ ContactCensus PairGranEepa::census(int groupbit)
       const double reach = atom->radius[i] + atom->radius[j];
       const Vec3 offset = Vec3(atom->x[i]) - Vec3(atom->x[j]);
       const double ratio = (reach - offset.norm()) / reach;
-      const eepa::Branch branch = ContactStatus::branch(status);
+      const eepa::Branch branch = eepa::ContactStatus::branch(status);
       sum[0] += share;
       if (branch == eepa::Branch::loading) sum[1] += share;
       if (branch == eepa::Branch::unloading) sum[2] += share;
       if (branch == eepa::Branch::adhesive) sum[3] += share;
-      if (status & ContactStatus::sliding) sum[4] += share;
+      if (eepa::ContactStatus::slides(status)) sum[4] += share;
       sum[5] += share * ends;
       sum[6] += share * ratio;
       largest = std::max(largest, ratio);

@@ -2,20 +2,12 @@
 #ifndef LMP_EEPA_WALL_SURFACE_H
 #define LMP_EEPA_WALL_SURFACE_H
 
-#include <eepa/vector.h>
+#include <eepa/body.h>
 
 #include <array>
 #include <cmath>
 
 namespace LAMMPS_NS {
-
-/// Where a surface is nearest to a particle.
-struct SurfacePoint {
-  double overlap;         ///< R_i - distance; > 0 in contact [length]
-  eepa::Vec3 normal;      ///< unit vector from the surface to the particle
-  eepa::Vec3 velocity;    ///< of the surface at that point [length/time]
-  double curvature;       ///< 1/distance from a cylinder's axis, > 0 inside; 0 at a plane
-};
 
 /// The surfaces of one wall: two planes normal to an axis, or both sides of the lateral surface of a
 /// cylinder along z. Geometry and motion only; a kind of wall that is new belongs here.
@@ -89,41 +81,38 @@ class WallSurfaces {
                       displacement[1] - before.displacement[1]);
   }
 
-  /// How fast the normal turns, du/dt, while a particle moves along a surface [1/time]
-  /// \param velocity  of its centre, against the surface's translation [length/time]
-  static eepa::Vec3 turning(const SurfacePoint &point, const eepa::Vec3 &velocity)
-  {
-    // inside a cylinder the normal points at the axis: it turns against the way of the particle
-    const eepa::Vec3 around(velocity[0], velocity[1], 0.0);
-    return -point.curvature * (around - around.dot(point.normal) * point.normal);
-  }
-
   /// Whether a plane has its inner side towards + of the axis.
   bool is_lower(int surface) const { return has_lo && surface == 0; }
 
+  /// Where a surface is nearest to a particle.
   /// \param surface  0 .. count() - 1
-  /// \param x  centre of a particle of radius `particle_radius`
-  SurfacePoint nearest(int surface, const double *x, double particle_radius) const
+  eepa::WallPoint<double> nearest(int surface, const eepa::Body<double> &particle) const
   {
-    SurfacePoint point;
+    const double *x = particle.x.data();
+    eepa::WallPoint<double> point;
     point.velocity = eepa::Vec3(velocity.data());
     if (is_plane()) {
       const int dim = axis();
-      point.overlap = particle_radius - plane_distance(surface, x);
+      point.overlap = particle.radius - plane_distance(surface, x);
       point.normal.setZero();
       point.normal[dim] = is_lower(surface) ? 1.0 : -1.0;
-      point.curvature = 0.0;
+      point.normal_rate.setZero();
       return point;
     }
     const double dx = x[0] - displacement[0];
     const double dy = x[1] - displacement[1];
     const double from_axis = distance_from_axis(x);
     const double inside = is_inner(surface) ? 1.0 : -1.0;
-    point.overlap = particle_radius - inside * (radius - from_axis);
+    point.overlap = particle.radius - inside * (radius - from_axis);
     eepa::Vec3 radial(1.0, 0.0, 0.0);    // any direction serves a particle on the axis
     if (from_axis > 0.0) radial = eepa::Vec3(dx / from_axis, dy / from_axis, 0.0);
     point.normal = -inside * radial;
-    point.curvature = from_axis > 0.0 ? inside / from_axis : 0.0;
+    // inside a cylinder the normal points at the axis: it turns against the motion of the particle
+    // around that, seen from the cylinder
+    const double curvature = from_axis > 0.0 ? inside / from_axis : 0.0;
+    const eepa::Vec3 relative = particle.v - point.velocity;
+    const eepa::Vec3 around(relative[0], relative[1], 0.0);
+    point.normal_rate = -curvature * (around - around.dot(point.normal) * point.normal);
     point.velocity += surface_speed * eepa::Vec3(radial[1], -radial[0], 0.0);
     return point;
   }

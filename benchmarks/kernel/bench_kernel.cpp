@@ -16,11 +16,6 @@ using namespace eepa_bench;
 /// As many contacts as lie in the second-level cache, and many more than any cache holds.
 constexpr std::size_t in_cache = 1024, in_memory = 1 << 19;
 
-/// What a driver adds to its particles.
-template <class Real> struct Effect {
-  eepa::Vector3<Real> force, moment, rolling;
-};
-
 /// Shares of the contacts.
 struct Census {
   double loading = 0.0, unloading = 0.0, adhesive = 0.0, sliding = 0.0;
@@ -38,7 +33,7 @@ Census take_census(const eepa::Coefficients &c, std::vector<Pack<Real>> packs)
     if (sliding) census.sliding += share;
   };
   for (auto &[contact, history] : packs) {
-    const auto response = ContactLaw::evaluate(c, false, contact, time_step, history);
+    const auto response = ContactLaw::evaluate(c, contact, time_step, history);
     if constexpr (width<Real> == 1) {
       count(response.branch, response.sliding);
     } else {
@@ -54,15 +49,13 @@ template <class ContactLaw, class Real>
 void evaluate_all(benchmark::State &state, const Choice &choice, Kind kind, std::size_t contacts)
 {
   auto packs = pack<Real>(make_samples<ContactLaw>(choice, kind, contacts));
-  std::vector<Effect<Real>> effects(packs.size());
+  std::vector<eepa::Wrench<Real>> wrenches(packs.size());
   const eepa::Coefficients c = eepa::resolve(choice.parameters, choice.settings);
   for (auto _ : state) {
     for (std::size_t k = 0; k < packs.size(); k++) {
       auto &[contact, history] = packs[k];
-      const auto response = ContactLaw::evaluate(c, false, contact, time_step, history);
-      effects[k].force = ContactLaw::force_on_i(response, contact);
-      effects[k].moment = ContactLaw::tangential_moment(response, contact);
-      if constexpr (ContactLaw::has_rolling) effects[k].rolling = response.rolling_torque;
+      const auto response = ContactLaw::evaluate(c, contact, time_step, history);
+      wrenches[k] = ContactLaw::wrench(response, contact);
     }
     benchmark::ClobberMemory();
   }

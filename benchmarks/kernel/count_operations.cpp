@@ -21,12 +21,10 @@ int main()
         const eepa::Coefficients c = eepa::resolve(choice.parameters, choice.settings);
         Counted::count = Operations();
         for (auto &[contact, history] : packs) {
-          const auto response = ContactLaw::evaluate(c, false, contact, time_step, history);
+          const auto response = ContactLaw::evaluate(c, contact, time_step, history);
           // Eigen works out what is asked for
-          [[maybe_unused]] const eepa::Vector3<Counted> force =
-              ContactLaw::force_on_i(response, contact);
-          [[maybe_unused]] const eepa::Vector3<Counted> moment =
-              ContactLaw::tangential_moment(response, contact);
+          [[maybe_unused]] const eepa::Wrench<Counted> wrench =
+              ContactLaw::wrench(response, contact);
         }
         const Operations &n = Counted::count;
         constexpr double per = 1.0 / contacts;

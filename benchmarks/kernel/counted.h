@@ -52,7 +52,7 @@ class Counted {
 
 namespace eepa {
 template <>
-inline eepa_bench::Counted raise<eepa_bench::Counted>(const eepa_bench::Counted &base,
+inline eepa_bench::Counted pow<eepa_bench::Counted>(const eepa_bench::Counted &base,
                                                       double exponent)
 {
   return eepa_bench::Counted::count.powers++, std::pow(base.value, exponent);

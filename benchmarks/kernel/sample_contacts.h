@@ -142,6 +142,8 @@ std::vector<Sample> make_samples(const Choice &choice, Kind kind, std::size_t co
     tangent = tangent / std::sqrt(tangent.squaredNorm());
     const bool slides = own == Kind::sliding;
     contact.velocity = slides ? Vec3(0.05 * tangent) : Vec3(-1e-3 * random() * contact.normal);
+    contact.arm_i = radius - 0.5 * contact.overlap;
+    contact.arm_j = other - 0.5 * contact.overlap;
     contact.spin = 1e-3 * random() * contact.normal;
     contact.angular_velocity = random.between(1.0, 20.0) *
         (slides || !ContactLaw::Rolling::has_spring ? tangent : contact.normal);
@@ -153,7 +155,7 @@ std::vector<Sample> make_samples(const Choice &choice, Kind kind, std::size_t co
         : own == Kind::adhesive                  ? contact.overlap / 0.2
                                                  : 0.9 * contact.overlap;
     eepa::History trial = history;
-    const eepa::Response response = ContactLaw::evaluate(c, false, contact, 0.0, trial);
+    const eepa::Response response = ContactLaw::evaluate(c, contact, 0.0, trial);
     const auto stretch = (slides ? 2.0 : 0.2) * response.friction_bound /
         (eepa::contact_scale(c, contact.size).stiffness() * c.kt);
     history.tangential_spring = stretch * tangent;
@@ -201,6 +203,8 @@ template <class Real> std::vector<Pack<Real>> pack(const std::vector<Sample> &sa
     set_lane(to.effective_mass, lane, from.effective_mass);
     set_lane(to.effective_radius, lane, from.effective_radius);
     set_lane(to.velocity, lane, from.velocity);
+    set_lane(to.arm_i, lane, from.arm_i);
+    set_lane(to.arm_j, lane, from.arm_j);
     set_lane(to.spin, lane, from.spin);
     set_lane(to.angular_velocity, lane, from.angular_velocity);
     set_lane(to.turn, lane, from.turn);

@@ -26,7 +26,7 @@ struct Coefficients {
   double twisting_share;                ///< of the friction bound; 0 where twisting is free
   double exponent;                      ///< n
   double inverse_reference_diameter;    ///< 1/d_ref, or 0 when nothing scales
-  bool limit_damping;                   ///< as in LawSettings; read by the energy ledger only
+  bool limit_damping;                   ///< as in LawSettings
 };
 
 /// B_n / sqrt(m* k1) for a coefficient of restitution e of the linear spring-dashpot.
@@ -113,6 +113,8 @@ EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
 template <class Real> struct ScaleOf {
   Real size = 1.0;            ///< s
   Real inverse_size = 1.0;    ///< 1/s
+  /// R* of the contact [length]; set for normal laws that say reads_effective_radius
+  Real effective_radius = 0.0;
   EEPA_FUNCTION Real stiffness() const { return size; }
   EEPA_FUNCTION Real force() const { return size * size; }
 };

@@ -4,8 +4,6 @@
 
 #include "vector.h"
 
-#include <limits>
-
 namespace eepa {
 
 /// A contact as the law sees it. It does not know whether j is a particle or a wall.
@@ -14,8 +12,9 @@ template <class Real> struct ContactOf {
   Real overlap;                      ///< delta = R_i + R_j - r > 0 [length]
   Real size;                         ///< d: R_i + R_j, at a wall 2 R_i [length]
   Real effective_mass;               ///< m*, see effective_mass()
-  Real effective_radius;             ///< R*, see effective_radius()
+  Real effective_radius;             ///< R*, see effective_radius(); for laws that read it
   Vector3<Real> velocity;            ///< v_i - v_j [length/time]
+  Real arm_i, arm_j;                 ///< a_i, a_j: see lever_arm(); a_j is 0 at a wall [length]
   Vector3<Real> spin;                ///< a_i omega_i + a_j omega_j [length/time]
   Vector3<Real> turn;                ///< of u since the middle of the step, see turn_of_pair()
   Real twist;                        ///< angle about u in this step, see twist_of_pair()
@@ -56,10 +55,11 @@ EEPA_FUNCTION Real twist_of_pair(const Vector3<Real> &normal, const Vector3<Real
 /// \return m*; 0 when both are infinite: neither can move, and a dashpot has nothing to damp
 template <class Real> EEPA_FUNCTION Real effective_mass(const Real &mass_i, const Real &mass_j)
 {
-  constexpr double largest = std::numeric_limits<double>::max();
+  // spelled out, for std::numeric_limits has no device functions
+  constexpr double largest = 1.7976931348623157e308;
   const Real sum = mass_i + mass_j;
   const auto infinite = sum > largest;
-  const Real lighter = smaller(mass_i, mass_j);
+  const Real lighter = eepa::min(mass_i, mass_j);
   return select(infinite, select(lighter > largest, Real(0.0), lighter),
                 mass_i * mass_j / select(infinite, Real(1.0), sum));
 }

@@ -2,6 +2,7 @@
 #ifndef EEPA_CONTACT_LAW_H
 #define EEPA_CONTACT_LAW_H
 
+#include "body.h"
 #include "coefficients.h"
 #include "contact.h"
 #include "history.h"
@@ -12,8 +13,8 @@
 
 namespace eepa {
 
-/// What a contact does to its partners. Forces and rolling torque act on i, their opposites
-/// on j; the tangential force also turns both, see tangential_moment().
+/// What the law answers. Forces and rolling torque act on i, their opposites on j; ContactLaw::wrench()
+/// makes of them what each partner gets.
 template <class Real> struct ResponseOf {
   Real normal_force;                 ///< f_hys + f_nd along u [force]
   Real hysteretic_force;             ///< f_hys [force]
@@ -64,7 +65,7 @@ EEPA_FUNCTION Dashpots<Real> dashpots(const Coefficients &c, const ScaleOf<Real>
 template <class Real>
 EEPA_FUNCTION Real friction_bound(const Coefficients &c, const NormalForceOf<Real> &normal)
 {
-  return larger<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, 0.0);
+  return eepa::max<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, 0.0);
 }
 
 /// The law of one contact: normal, tangential, damping, rolling and twisting composed.
@@ -80,25 +81,36 @@ template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> s
   static constexpr bool has_twisting = TwistingLaw::model != TwistingModel::none;
   /// whether it gives a couple beside the torques of friction, from the relative angular velocity
   static constexpr bool has_couple = has_rolling || has_twisting;
+  /// whether a contact needs its effective radius
+  static constexpr bool reads_effective_radius = has_couple || NormalLaw::reads_effective_radius;
   static constexpr int history_size = Layout::size;
+
+  /// How the coefficients of a contact relate to those at d_ref.
+  template <class Real>
+  EEPA_FUNCTION static ScaleOf<Real> scale_of(const Coefficients &c, const ContactOf<Real> &contact)
+  {
+    ScaleOf<Real> scale = contact_scale(c, contact.size);
+    if constexpr (NormalLaw::reads_effective_radius)
+      scale.effective_radius = contact.effective_radius;
+    return scale;
+  }
 
   /// Forces of a contact and its state after this step.
   ///
   /// \param c  coefficients of its pair of types
-  /// \param limit_damping  the normal dashpot adds no tension: f_n >= min(f_hys, 0)
   /// \param contact  geometry and motion, overlap > 0
   /// \param time_step  by which the springs are wound [time]; 0 in a set-up call, after which
   ///        the caller must throw the returned history away
   /// \param[in,out] history  the state before and after
   template <class Real>
-  EEPA_FUNCTION static ResponseOf<Real> evaluate(const Coefficients &c, bool limit_damping,
+  EEPA_FUNCTION static ResponseOf<Real> evaluate(const Coefficients &c,
                                                  const ContactOf<Real> &contact, double time_step,
                                                  HistoryOf<Real> &history)
   {
     using std::abs;
     ResponseOf<Real> response;
     const Real none(0.0);
-    const ScaleOf<Real> scale = contact_scale(c, contact.size);
+    const ScaleOf<Real> scale = scale_of(c, contact);
     const NormalForceOf<Real> normal =
         NormalLaw::force(c, scale, contact.overlap, history.max_overlap);
     history.max_overlap = normal.max_overlap;
@@ -109,8 +121,8 @@ template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> s
         dashpots<NormalLaw>(c, scale, contact.effective_mass, contact.overlap);
     const Real normal_velocity = dot(contact.velocity, contact.normal);
     response.normal_force = normal.force - viscous.normal * normal_velocity;
-    if (limit_damping)
-      response.normal_force = larger(response.normal_force, smaller(normal.force, none));
+    if (c.limit_damping)
+      response.normal_force = eepa::max(response.normal_force, eepa::min(normal.force, none));
 
     response.friction_bound = friction_bound(c, normal);
     const Vector3<Real> velocity = tangential_velocity(contact, normal_velocity);
@@ -134,14 +146,13 @@ template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> s
   }
 
   /// Recoverable energy of a contact.
-  /// \param size, overlap  as in Contact
   /// \param history  the state that evaluate() left for this overlap
-  EEPA_FUNCTION static StoredEnergy stored_energy(const Coefficients &c, double size,
-                                                  double overlap, const History &history)
+  EEPA_FUNCTION static StoredEnergy stored_energy(const Coefficients &c, const Contact &contact,
+                                                  const History &history)
   {
-    const Scale scale = contact_scale(c, size);
+    const Scale scale = scale_of(c, contact);
     StoredEnergy energy;
-    energy.normal = NormalLaw::elastic_energy(c, scale, overlap, history.max_overlap);
+    energy.normal = NormalLaw::elastic_energy(c, scale, contact.overlap, history.max_overlap);
     energy.tangential = spring_energy(scale.stiffness() * c.kt, history.tangential_spring);
     if constexpr (RollingLaw::has_spring)
       energy.rolling = spring_energy(scale.stiffness() * c.kr, history.rolling_spring);
@@ -151,37 +162,26 @@ template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> s
     return energy;
   }
 
-  /// Force on i.
+  /// What each partner gets.
   template <class Real>
-  EEPA_FUNCTION static Vector3<Real> force_on_i(const ResponseOf<Real> &response,
-                                                const ContactOf<Real> &contact)
+  EEPA_FUNCTION static Wrench<Real> wrench(const ResponseOf<Real> &response,
+                                           const ContactOf<Real> &contact)
   {
-    return response.normal_force * contact.normal + response.tangential_force;
-  }
-
-  /// Adds the couple of rolling and twisting to the torques of both partners.
-  template <class Real>
-  EEPA_FUNCTION static void add_couple(const ResponseOf<Real> &response,
-                                       const ContactOf<Real> &contact, Vector3<Real> &torque_i,
-                                       Vector3<Real> &torque_j)
-  {
+    Wrench<Real> result;
+    result.force = response.normal_force * contact.normal + response.tangential_force;
+    const Vector3<Real> moment = contact.normal.cross(response.tangential_force);
+    result.torque_i = -contact.arm_i * moment;
+    result.torque_j = -contact.arm_j * moment;
     if constexpr (has_rolling) {
-      torque_i += response.rolling_torque;
-      torque_j -= response.rolling_torque;
+      result.torque_i += response.rolling_torque;
+      result.torque_j -= response.rolling_torque;
     }
     if constexpr (has_twisting) {
       const Vector3<Real> twisting = response.twisting_torque * contact.normal;
-      torque_i += twisting;
-      torque_j -= twisting;
+      result.torque_i += twisting;
+      result.torque_j -= twisting;
     }
-  }
-
-  /// u x f_t: times -lever_arm() it is the tangential force's torque on either partner.
-  template <class Real>
-  EEPA_FUNCTION static Vector3<Real> tangential_moment(const ResponseOf<Real> &response,
-                                                       const ContactOf<Real> &contact)
-  {
-    return contact.normal.cross(response.tangential_force);
+    return result;
   }
 };
 

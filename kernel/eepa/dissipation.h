@@ -153,7 +153,7 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
                                               const History &after, bool booked = true)
 {
   Dissipation lost;
-  const Scale scale = contact_scale(c, contact.size);
+  const Scale scale = ContactLaw::scale_of(c, contact);
   const double normal_velocity = dot(contact.velocity, contact.normal);
   // a contact that starts with an overlap (a packing's first step) was not loaded up to it
   double loaded = before.max_overlap;
@@ -231,7 +231,7 @@ EEPA_FUNCTION Dissipation dissipation_of_opening(const Coefficients &c, const Co
 {
   using Normal = typename ContactLaw::Normal;
   Dissipation lost;
-  const Scale scale = contact_scale(c, contact.size);
+  const Scale scale = ContactLaw::scale_of(c, contact);
   const double normal_velocity = dot(contact.velocity, contact.normal);
   if (contact.overlap > 0.0) {
     // what it stored one step ago, less the trapezoid work of the force then

@@ -7,6 +7,7 @@
 #include "contact_law.h"
 #include "dispatch.h"
 #include "dissipation.h"
+#include "status.h"
 #include "time_step.h"
 
 #endif

@@ -6,6 +6,9 @@
 #include "parameters.h"
 #include "vector.h"
 
+#include <cmath>
+#include <cstddef>
+
 namespace eepa {
 
 /// Where each quantity of a contact's state lies in a driver's flat array of doubles.
@@ -53,22 +56,74 @@ namespace detail {
   }
 }    // namespace detail
 
-/// Reads a state from a driver's flat array.
+// A driver's row is anything with row[k], k counted by HistoryIndex: a pointer to values that follow
+// each other, as LAMMPS has them, or one of these two, for drivers on a GPU.
+
+/// Values of a contact that lie `stride` apart, as where each quantity has an array of its own.
+template <class T> struct StridedRow {
+  T *first;
+  std::ptrdiff_t stride;
+
+  EEPA_FUNCTION T &operator[](int k) const { return first[k * stride]; }
+};
+
+/// Four values that a processor reads or writes at once.
+struct alignas(32) Quad {
+  double value[4];
+};
+
+/// Values of a contact in quads that lie `stride` quads apart: one quad where Layout::size <= 4, else two.
+template <class T> struct QuadRow {    // T: Quad or const Quad
+  T *first;
+  std::ptrdiff_t stride;
+
+  EEPA_FUNCTION auto &operator[](int k) const { return first[k / 4 * stride].value[k % 4]; }
+};
+
+namespace detail {
+  /// Values first .. first + count - 1 of a row, first a multiple of 4 and count at most 4.
+  template <int count, class Row> EEPA_FUNCTION Quad read_row(Row row, int first)
+  {
+    Quad quad{};
+    for (int k = 0; k < count; k++) quad.value[k] = row[first + k];
+    return quad;
+  }
+  template <int, class T> EEPA_FUNCTION Quad read_row(QuadRow<T> row, int first)
+  {
+    return row.first[first / 4 * row.stride];
+  }
+  template <int count, class Row>
+  EEPA_FUNCTION void write_row(const Quad &quad, Row row, int first)
+  {
+    for (int k = 0; k < count; k++) row[first + k] = quad.value[k];
+  }
+  template <int> EEPA_FUNCTION void write_row(const Quad &quad, QuadRow<Quad> row, int first)
+  {
+    row.first[first / 4 * row.stride] = quad;
+  }
+}    // namespace detail
+
+/// Reads a state from a driver's row.
 ///
-/// LAMMPS hands the array over with every sign turned when i and j change places: right for
-/// the springs that are vectors, and harmless for the overlap because its magnitude is read.
+/// LAMMPS hands rows over with every sign turned when i and j change places: right for the springs
+/// that are vectors, and harmless for the overlap because its magnitude is read.
 /// \tparam Layout  a HistoryLayout
-/// \param values  Layout::size doubles
-template <class Layout> EEPA_FUNCTION History load_history(const double *values)
+/// \param row  Layout::size doubles
+template <class Layout, class Row> EEPA_FUNCTION History load_history(Row row)
 {
+  static_assert(MAX_OVERLAP == 0 && TANGENTIAL_SPRING == 1 && N_ALWAYS == 4, "the first quad");
+  const Quad always = detail::read_row<N_ALWAYS>(row, 0);
   History history;
-  history.max_overlap = std::fabs(values[MAX_OVERLAP]);
-  history.tangential_spring = Eigen::Map<const Vec3>(values + TANGENTIAL_SPRING);
-  if constexpr (Layout::rolling)
-    history.rolling_spring = Eigen::Map<const Vec3>(values + ROLLING_SPRING);
-  if constexpr (Layout::twisting)
-    history.twisting_spring =
-        detail::twist_of(values[Layout::twisting_spring], values[MAX_OVERLAP]);
+  history.max_overlap = std::fabs(always.value[MAX_OVERLAP]);
+  for (int k = 0; k < 3; k++) history.tangential_spring[k] = always.value[TANGENTIAL_SPRING + k];
+  if constexpr (Layout::size > N_ALWAYS) {
+    const Quad more = detail::read_row<Layout::size - N_ALWAYS>(row, N_ALWAYS);
+    if constexpr (Layout::rolling)
+      for (int k = 0; k < 3; k++) history.rolling_spring[k] = more.value[k];
+    if constexpr (Layout::twisting)
+      history.twisting_spring = detail::twist_of(more.value[Layout::twisting_spring - N_ALWAYS],
+                                                 always.value[MAX_OVERLAP]);
+  }
   return history;
 }
 
@@ -100,13 +155,20 @@ EEPA_FUNCTION HistoryOf<Lanes> load_history(const LanePointers<double> &values)
 }
 #endif
 
-/// Writes a state to a driver's flat array; the inverse of load_history.
-template <class Layout> EEPA_FUNCTION void store_history(const History &history, double *values)
+/// Writes a state to a driver's row; the inverse of load_history.
+template <class Layout, class Row>
+EEPA_FUNCTION void store_history(const History &history, Row row)
 {
-  values[MAX_OVERLAP] = history.max_overlap;
-  Eigen::Map<Vec3>(values + TANGENTIAL_SPRING) = history.tangential_spring;
-  if constexpr (Layout::rolling) Eigen::Map<Vec3>(values + ROLLING_SPRING) = history.rolling_spring;
-  if constexpr (Layout::twisting) values[Layout::twisting_spring] = history.twisting_spring;
+  const Vec3 &spring = history.tangential_spring;
+  detail::write_row<N_ALWAYS>({{history.max_overlap, spring[0], spring[1], spring[2]}}, row, 0);
+  if constexpr (Layout::size > N_ALWAYS) {
+    Quad more{};
+    if constexpr (Layout::rolling)
+      for (int k = 0; k < 3; k++) more.value[k] = history.rolling_spring[k];
+    if constexpr (Layout::twisting)
+      more.value[Layout::twisting_spring - N_ALWAYS] = history.twisting_spring;
+    detail::write_row<Layout::size - N_ALWAYS>(more, row, N_ALWAYS);
+  }
 }
 
 #ifdef EEPA_HAS_LANES

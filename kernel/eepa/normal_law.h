@@ -3,6 +3,7 @@
 #define EEPA_NORMAL_LAW_H
 
 #include "coefficients.h"
+#include "real.h"
 
 #include <cmath>
 #include <type_traits>
@@ -12,16 +13,15 @@ namespace eepa {
 /// The branch of the hysteretic force that a contact is on.
 enum class Branch : int { loading = 1, unloading = 2, adhesive = 3 };
 
-/// The branch of a contact: for Lanes its number, as a double in each lane.
-template <class Real>
-using BranchOf = std::conditional_t<std::is_same_v<Real, double>, Branch, Real>;
+/// The branch of a contact; where Real is lanes, its number in each lane.
+template <class Real> using BranchOf = std::conditional_t<is_lanes<Real>, Real, Branch>;
 
 template <class Real> EEPA_FUNCTION BranchOf<Real> branch_of(Branch branch)
 {
-  if constexpr (std::is_same_v<Real, double>)
-    return branch;
-  else
+  if constexpr (is_lanes<Real>)
     return BranchOf<Real>(static_cast<double>(static_cast<int>(branch)));
+  else
+    return branch;
 }
 
 /// What a normal law says of one overlap.
@@ -63,7 +63,7 @@ struct GeneralExponent {
   EEPA_FUNCTION static Real power(const Real &overlap, const Coefficients &c,
                                   const ScaleOf<Real> &scale)
   {
-    return overlap * raise<Real>(overlap * scale.inverse_size, c.exponent - 1.0);
+    return overlap * eepa::pow<Real>(overlap * scale.inverse_size, c.exponent - 1.0);
   }
   EEPA_FUNCTION static double scale_overlap(double overlap, double fraction, const Coefficients &c)
   {
@@ -73,7 +73,7 @@ struct GeneralExponent {
   EEPA_FUNCTION static Real slope(const Real &overlap, const Coefficients &c,
                                   const ScaleOf<Real> &scale)
   {
-    return c.exponent * raise<Real>(overlap * scale.inverse_size, c.exponent - 1.0);
+    return c.exponent * eepa::pow<Real>(overlap * scale.inverse_size, c.exponent - 1.0);
   }
 };
 
@@ -87,6 +87,7 @@ struct GeneralExponent {
 /// For f0 != 0 the force steps by f0 where the plateau begins.
 struct PlateauLaw {
   static constexpr Law law = Law::plateau;
+  static constexpr bool reads_effective_radius = false;
   using Exponent = UnitExponent;
 
   /// \param overlap  delta > 0 [length]
@@ -117,7 +118,8 @@ struct PlateauLaw {
   }
 
   /// delta_p, where the unloading line crosses f0 [length]
-  EEPA_FUNCTION static double plastic_overlap(const Coefficients &c, double max_overlap)
+  EEPA_FUNCTION static double plastic_overlap(const Coefficients &c, const Scale &,
+                                              double max_overlap)
   {
     return c.plastic_fraction * max_overlap;
   }
@@ -178,6 +180,7 @@ struct PlateauLaw {
 /// \tparam ExponentPolicy  UnitExponent or GeneralExponent
 template <class ExponentPolicy> struct LinearLaw {
   static constexpr Law law = Law::linear;
+  static constexpr bool reads_effective_radius = false;
   using Exponent = ExponentPolicy;
 
   /// \copydoc PlateauLaw::force
@@ -211,7 +214,8 @@ template <class ExponentPolicy> struct LinearLaw {
   }
 
   /// delta_p, where the unloading line crosses f0 [length]
-  EEPA_FUNCTION static double plastic_overlap(const Coefficients &c, double max_overlap)
+  EEPA_FUNCTION static double plastic_overlap(const Coefficients &c, const Scale &,
+                                              double max_overlap)
   {
     return Exponent::scale_overlap(max_overlap, c.plastic_fraction, c);
   }
@@ -224,7 +228,7 @@ template <class ExponentPolicy> struct LinearLaw {
                                              double overlap, double max_overlap)
   {
     const double peak = overlap >= max_overlap ? overlap : max_overlap;
-    const double plastic = plastic_overlap(c, peak);
+    const double plastic = plastic_overlap(c, scale, peak);
     const double plastic_power = c.plastic_fraction * Exponent::power(peak, c, scale);
     double energy;
     if constexpr (Exponent::is_unit) {

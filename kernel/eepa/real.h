@@ -22,6 +22,12 @@ namespace eepa {
 /// Three numbers along x, y, z.
 template <class Real> using Vector3 = Eigen::Matrix<Real, 3, 1>;
 
+/// Whether a Real stands for several contacts, with a number in each lane.
+template <class Real> constexpr bool is_lanes = false;
+#ifdef EEPA_HAS_LANES
+template <> constexpr bool is_lanes<Lanes> = true;
+#endif
+
 /// Whether a condition holds for any contact.
 EEPA_FUNCTION bool any(bool condition)
 {
@@ -56,24 +62,26 @@ EEPA_FUNCTION Vector3<Lanes> select(const Lanes::mask_type &condition, const Vec
 #endif
 
 /// base^exponent, in each lane as the C library has it for a double.
-template <class Real> EEPA_FUNCTION Real raise(const Real &base, double exponent)
+template <class Real> EEPA_FUNCTION Real pow(const Real &base, double exponent)
 {
-  if constexpr (std::is_same_v<Real, double>)
-    return std::pow(base, exponent);
-  else
+  if constexpr (is_lanes<Real>)
     return Real([&](auto lane) EEPA_LAMBDA {
       return std::pow(base[lane], exponent);
     });
+  else
+    return std::pow(base, exponent);
 }
 
 /// What a comparison of two Real gives: bool, or one for each lane.
 template <class Real> using MaskOf = decltype(std::declval<Real>() < std::declval<Real>());
 
-template <class Real> EEPA_FUNCTION Real smaller(const Real &a, const Real &b)
+// Qualified where they are called, eepa::min(a, b): other libraries' functions of these names would
+// be found by the kind of their arguments.
+template <class Real> EEPA_FUNCTION Real min(const Real &a, const Real &b)
 {
   return select(b < a, b, a);
 }
-template <class Real> EEPA_FUNCTION Real larger(const Real &a, const Real &b)
+template <class Real> EEPA_FUNCTION Real max(const Real &a, const Real &b)
 {
   return select(a < b, b, a);
 }

@@ -43,7 +43,7 @@ struct TwistingMarshall {
   EEPA_FUNCTION static Real arm(const Real &effective_radius, const Real &overlap)
   {
     using std::sqrt;
-    return sqrt(0.5 * effective_radius * larger<Real>(overlap, 0.0));
+    return sqrt(0.5 * effective_radius * eepa::max<Real>(overlap, 0.0));
   }
   /// What |g| can not exceed: 2/3 a over the arm, times the friction bound [force]
   template <class Real>

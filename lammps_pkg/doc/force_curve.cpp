@@ -39,11 +39,12 @@ int main(int argc, char **argv)
     contact.effective_mass = 1.0;
     contact.effective_radius = 0.25;
     contact.velocity = contact.spin = contact.angular_velocity = contact.turn = eepa::Vec3::Zero();
+    contact.arm_i = contact.arm_j = 0.5;
     contact.twist = 0.0;
     eepa::History history;
     while (std::scanf("%lf", &contact.overlap) == 1) {
-      const auto response = ContactLaw::evaluate(c, false, contact, 0.0, history);
-      const auto energy = ContactLaw::stored_energy(c, contact.size, contact.overlap, history);
+      const auto response = ContactLaw::evaluate(c, contact, 0.0, history);
+      const auto energy = ContactLaw::stored_energy(c, contact, history);
       std::printf("%.10g %.10g %d %.10g %.10g %.10g\n", contact.overlap, response.hysteretic_force,
                   static_cast<int>(response.branch), history.max_overlap, response.friction_bound,
                   energy.normal);

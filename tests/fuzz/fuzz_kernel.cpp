@@ -123,7 +123,7 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     const History before = load_history<Layout>(stored.data());
     History history = before;
     const Response r =
-        ContactLaw::evaluate(c, settings.limit_damping, contact, time_step, history);
+        ContactLaw::evaluate(c, contact, time_step, history);
 
     REQUIRE(std::isfinite(r.normal_force), r.normal_force, 0);
     REQUIRE(std::isfinite(r.hysteretic_force), r.hysteretic_force, 0);
@@ -144,7 +144,7 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
       REQUIRE(r.rolling_torque.norm() <= limit * (1 + 1e-12) + 1e-150, r.rolling_torque.norm(),
               limit);
     }
-    const StoredEnergy energy = ContactLaw::stored_energy(c, contact.size, overlap, history);
+    const StoredEnergy energy = ContactLaw::stored_energy(c, contact, history);
     REQUIRE(std::isfinite(energy.total()), energy.total(), 0);
     REQUIRE(energy.tangential >= 0.0 && energy.rolling >= 0.0, energy.tangential, energy.rolling);
     if (settings.law == Law::linear && p.f0 == 0.0)
@@ -160,7 +160,7 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     std::array<double, Layout::size> turned;
     std::transform(stored.begin(), stored.end(), turned.begin(), [](double x) { return -x; });
     History other = load_history<Layout>(turned.data());
-    const Response o = ContactLaw::evaluate(c, settings.limit_damping, swapped, time_step, other);
+    const Response o = ContactLaw::evaluate(c, swapped, time_step, other);
     REQUIRE(o.normal_force == r.normal_force, o.normal_force, r.normal_force);
     REQUIRE(o.tangential_force == -r.tangential_force, o.tangential_force.norm(),
             r.tangential_force.norm());

@@ -86,15 +86,15 @@ TEST(Real, SmallerLargerAndPowersOfEachLane)
 {
   // they cross: the first lanes have a below b, the last ones b below a
   const Lanes a = numbers(1.0), b = numbers(0.5 + width, -1.0);
-  const Lanes low = smaller(a, b), high = larger(a, b), power = raise(a, 1.3);
+  const Lanes low = eepa::min(a, b), high = eepa::max(a, b), power = eepa::pow(a, 1.3);
   for (int lane = 0; lane < width; lane++) {
     const double x = 1.0 + lane, y = 0.5 + width - lane;
     EXPECT_EQ(low[lane], std::min(x, y));
     EXPECT_EQ(high[lane], std::max(x, y));
-    EXPECT_EQ(smaller(x, y), std::min(x, y));
-    EXPECT_EQ(larger(x, y), std::max(x, y));
+    EXPECT_EQ(eepa::min(x, y), std::min(x, y));
+    EXPECT_EQ(eepa::max(x, y), std::max(x, y));
     EXPECT_EQ(power[lane], std::pow(x, 1.3));
-    EXPECT_EQ(raise(x, 1.3), std::pow(x, 1.3));
+    EXPECT_EQ(eepa::pow(x, 1.3), std::pow(x, 1.3));
   }
 }
 

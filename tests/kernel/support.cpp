@@ -12,15 +12,11 @@ Outcome evaluate(const Material &m, const Bodies &b, double time_step, History &
     const History before = history;
     Outcome out;
     static_cast<Response &>(out) =
-        Law::evaluate(c, m.law.limit_damping, contact, time_step, history);
+        Law::evaluate(c, contact, time_step, history);
     if (!Law::has_rolling) out.rolling_torque.setZero();
     if (!Law::has_twisting) out.twisting_torque = 0.0;
-    out.force = Law::force_on_i(out, contact);
-    const Vec3 moment = Law::tangential_moment(out, contact);
-    out.torque_i = -b.arm_i() * moment;
-    out.torque_j = -b.arm_j() * moment;
-    Law::add_couple(out, contact, out.torque_i, out.torque_j);
-    out.energy = Law::stored_energy(c, contact.size, contact.overlap, history);
+    static_cast<Wrench<double> &>(out) = Law::wrench(out, contact);
+    out.energy = Law::stored_energy(c, contact, history);
     out.lost = dissipation_of_step<Law>(c, contact, out, time_step, before.max_overlap == 0.0,
                                         before, history);
     return out;

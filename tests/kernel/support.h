@@ -73,8 +73,10 @@ struct Bodies {
     c.effective_mass = effective_mass(m_i, m_j);
     c.effective_radius = effective_radius(R_i, R_j);
     c.velocity = v_i - v_j;
-    c.spin = lever_arm(R_i, overlap) * w_i;
-    if (!wall()) c.spin += lever_arm(R_j, overlap) * w_j;
+    c.arm_i = arm_i();
+    c.arm_j = arm_j();
+    c.spin = c.arm_i * w_i;
+    if (!wall()) c.spin += c.arm_j * w_j;
     c.angular_velocity = w_i - w_j;
     if (wall())
       c.turn.setZero();
@@ -88,8 +90,7 @@ struct Bodies {
 };
 
 /// What a driver makes of a Response.
-struct Outcome : Response {
-  Vec3 force, torque_i, torque_j;
+struct Outcome : Response, Wrench<double> {
   StoredEnergy energy;
   Dissipation lost;
 };
@@ -140,7 +141,7 @@ class NormalPath {
   double plastic_overlap() const
   {
     return with([&](auto normal) {
-      return decltype(normal)::plastic_overlap(c_, max_overlap);
+      return decltype(normal)::plastic_overlap(c_, scale_, max_overlap);
     });
   }
   double loss(double before, double after) const

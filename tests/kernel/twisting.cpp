@@ -108,7 +108,7 @@ TEST(Twisting, TakesNoPartWithAShareOfZero)
   b.w_i = Vec3(30.0, 0.0, 0.0);
   History history;
   using Law = ContactLaw<LinearLaw<UnitExponent>, RollingNone, TwistingMarshall>;
-  const Response r = Law::evaluate(c, false, b.contact(1e-6), 1e-6, history);
+  const Response r = Law::evaluate(c, b.contact(1e-6), 1e-6, history);
   EXPECT_EQ(r.twisting_torque, 0.0);
   EXPECT_EQ(history.twisting_spring, 0.0);
 }

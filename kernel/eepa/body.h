@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_BODY_H
+#define EEPA_BODY_H
+
+#include "contact.h"
+
+namespace eepa {
+
+// What a driver gathers, and what it gets back to scatter. All between the two is the kernel's.
+
+/// A particle as its contacts see it.
+template <class Real> struct Body {
+  Vector3<Real> x;        ///< centre [length]
+  Vector3<Real> v;        ///< half a step ago [length/time]
+  Vector3<Real> omega;    ///< half a step ago [1/time]
+  Real radius;            ///< > 0 [length]
+  Real mass;              ///< > 0, infinity where it can not move [mass]
+};
+
+/// The point of a wall that is nearest to a particle. The wall is a partner of infinite mass and
+/// radius that does not spin.
+template <class Real> struct WallPoint {
+  Vector3<Real> normal;      ///< unit vector from the wall to the particle's centre
+  Real overlap;              ///< radius less distance [length]
+  Vector3<Real> velocity;    ///< of the wall there [length/time]
+  Vector3<Real>
+      normal_rate;    ///< du/dt while the particle moves along the wall; 0 at a plane [1/time]
+};
+
+/// What a contact does to its partners.
+template <class Real> struct Wrench {
+  Vector3<Real> force;       ///< on i; j gets the opposite one [force]
+  Vector3<Real> torque_i;    ///< [force length]
+  Vector3<Real> torque_j;    ///< [force length]; unset at a wall
+};
+
+/// A contact with everything that any law reads.
+struct AnyLaw {
+  static constexpr bool has_couple = true;
+  static constexpr bool reads_effective_radius = true;
+};
+
+/// The contact of two particles whose centres are apart.
+/// \tparam ContactLaw  what it does not read is left unset
+/// \param time_step  that led here; 0 in a set-up call [time]
+template <class ContactLaw = AnyLaw, class Real>
+EEPA_FUNCTION ContactOf<Real> contact_of(const Body<Real> &i, const Body<Real> &j, double time_step)
+{
+  using std::sqrt;
+  ContactOf<Real> contact;
+  const Vector3<Real> offset = i.x - j.x;
+  const Real distance = sqrt(squared_length(offset));
+  contact.size = i.radius + j.radius;
+  contact.overlap = contact.size - distance;
+  const Real inverse_distance = 1.0 / distance;    // one division, not three
+  contact.normal = inverse_distance * offset;
+  contact.effective_mass = effective_mass(i.mass, j.mass);
+  contact.velocity = i.v - j.v;
+  contact.arm_i = lever_arm(i.radius, contact.overlap);
+  contact.arm_j = lever_arm(j.radius, contact.overlap);
+  contact.spin = contact.arm_i * i.omega + contact.arm_j * j.omega;
+  contact.turn = turn_of_pair<Real>(contact.normal, contact.velocity, inverse_distance, time_step);
+  contact.twist = twist_of_pair<Real>(contact.normal, i.omega + j.omega, time_step);
+  if constexpr (ContactLaw::reads_effective_radius)
+    contact.effective_radius = effective_radius(i.radius, j.radius);
+  if constexpr (ContactLaw::has_couple) contact.angular_velocity = i.omega - j.omega;
+  return contact;
+}
+
+/// The contact of a particle and a wall.
+/// \param time_step  as in contact_of()
+template <class Real>
+EEPA_FUNCTION ContactOf<Real> contact_at_wall(const Body<Real> &i, const WallPoint<Real> &wall,
+                                              double time_step)
+{
+  ContactOf<Real> contact;
+  const Real infinite(HUGE_VAL);
+  contact.normal = wall.normal;
+  contact.overlap = wall.overlap;
+  contact.size = 2.0 * i.radius;
+  contact.effective_mass = effective_mass(i.mass, infinite);
+  contact.effective_radius = effective_radius(i.radius, infinite);
+  contact.velocity = i.v - wall.velocity;
+  contact.arm_i = lever_arm(i.radius, wall.overlap);
+  contact.arm_j = 0.0;
+  contact.spin = contact.arm_i * i.omega;
+  contact.angular_velocity = i.omega;
+  contact.turn = Real(0.5 * time_step) * wall.normal_rate;
+  contact.twist = twist_of_pair<Real>(wall.normal, i.omega, time_step);
+  return contact;
+}
+
+/// Whether an overlap is deeper than a radius: the centre of one lies within the other, and nothing
+/// that happens from here on has a meaning.
+/// \param radius  the smaller one of the two
+template <class Real> EEPA_FUNCTION MaskOf<Real> too_deep(const Real &overlap, const Real &radius)
+{
+  return overlap > radius;
+}
+
+}    // namespace eepa
+
+#endif

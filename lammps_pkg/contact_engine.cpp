@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "contact_engine.h"
+
+#include "contact_lanes.h"
+
+#include <eepa/dispatch.h>
+#include <eepa/status.h>
+
+namespace LAMMPS_NS {
+
+namespace {
+
+  template <class ContactLaw> class ContactEngineOf final : public ContactEngine {
+    using Layout = typename ContactLaw::Layout;
+
+   public:
+    int evaluate_lanes([[maybe_unused]] const eepa::Coefficients &given,
+                       [[maybe_unused]] double time_step,
+                       [[maybe_unused]] const ParticleArrays &particles,
+                       [[maybe_unused]] const ForceArrays &forces,
+                       [[maybe_unused]] const FoundContact *found, [[maybe_unused]] int count,
+                       [[maybe_unused]] ContactSlice &slice) const override
+    {
+      int n = 0;
+#ifdef EEPA_HAS_LANES
+      const eepa::Coefficients c = given;    // on the stack no force can overwrite it
+      const ParticleArrays p = particles;
+      const ForceArrays f = forces;
+      for (; n + ContactLanes::width <= count; n += ContactLanes::width)
+        ContactLanes(found + n).evaluate<ContactLaw>(c, time_step, p, f, slice);
+#endif
+      return n;
+    }
+
+    ContactOutcome evaluate(const eepa::Coefficients &c, const StepRequest &request,
+                            const eepa::Contact &contact, bool first, double *values) const override
+    {
+      eepa::History history = eepa::load_history<Layout>(values);
+      const eepa::History before = history;
+      const eepa::Response response = ContactLaw::evaluate(c, contact, request.time_step, history);
+      if (request.advance) eepa::store_history<Layout>(history, values);
+
+      ContactOutcome outcome;
+      outcome.wrench = ContactLaw::wrench(response, contact);
+      outcome.status = eepa::ContactStatus::of(response);
+      outcome.max_overlap = history.max_overlap;
+      if (request.wants_energy) outcome.energy = ContactLaw::stored_energy(c, contact, history);
+      if (request.wants_losses)
+        outcome.lost = eepa::dissipation_of_step<ContactLaw>(
+            c, contact, response, request.time_step, first, before, history, request.booked);
+      return outcome;
+    }
+
+    eepa::Dissipation open(const eepa::Coefficients &c, const StepRequest &request,
+                           const eepa::Contact &contact, const double *values) const override
+    {
+      return eepa::dissipation_of_opening<ContactLaw>(
+          c, contact, request.time_step, eepa::load_history<Layout>(values), request.booked);
+    }
+
+    ContactReport report(const eepa::Coefficients &c, const eepa::Contact &contact,
+                         const double *values, double sign) const override
+    {
+      eepa::History history;
+      if (values) {
+        history = eepa::load_history<Layout>(values);
+        // a twist has the same sign for both
+        history.tangential_spring *= sign;
+        history.rolling_spring *= sign;
+      }
+      // the energies are those of the springs as the last step left them: an evaluation with the
+      // velocities of the end of the step could let a sliding contact slip once more
+      const eepa::History stored = history;
+      ContactReport report;
+      report.response = ContactLaw::evaluate(c, contact, 0.0, history);
+      if constexpr (!ContactLaw::has_rolling) report.response.rolling_torque.setZero();
+      if constexpr (!ContactLaw::has_twisting) report.response.twisting_torque = 0.0;
+      report.max_overlap = history.max_overlap;
+      report.plastic_overlap = ContactLaw::Normal::plastic_overlap(
+          c, ContactLaw::scale_of(c, contact), history.max_overlap);
+      report.energy =
+          ContactLaw::stored_energy(c, contact, stored.max_overlap > 0.0 ? stored : history);
+      return report;
+    }
+
+    int history_size() const override
+    {
+      return Layout::size;
+    }
+  };
+
+}    // namespace
+
+std::unique_ptr<const ContactEngine> make_contact_engine(const eepa::LawSettings &settings,
+                                                         eepa::RollingModel rolling,
+                                                         eepa::TwistingModel twisting)
+{
+  return eepa::with_law(settings, rolling, twisting,
+                        [](auto law) -> std::unique_ptr<const ContactEngine> {
+                          return std::make_unique<ContactEngineOf<decltype(law)>>();
+                        });
+}
+
+}    // namespace LAMMPS_NS
