@@ -26,8 +26,8 @@ from collapse.cases import seeds_per_diameter  # noqa: E402
 from collapse.curves import BadCurve  # noqa: E402
 from collapse.runs import RunFailed, find_lmp  # noqa: E402
 
-from bench import (cases, cost, diameters, instructions, kernel, machine, memory,  # noqa: E402
-                   report, scaling)
+from bench import (cases, cost, diameters, instructions, kernel, machine,  # noqa: E402
+                   many_particles, many_types, memory, report, scaling)
 from bench.lammps import Program, has_pair_style, usable_cores  # noqa: E402
 from bench.lammps_log import BadLog  # noqa: E402
 from bench.output import write_csv  # noqa: E402
@@ -135,6 +135,25 @@ def run_memory(s: Session) -> None:
     s.write("memory", rows, memory.table(rows))
 
 
+def run_many_particles(s: Session) -> None:
+    """what is lost when particles no longer fit the cache: 4,096 and 49,152 of them"""
+    cell = 500 if s.quick else 4096
+    sizes = [cases.dense(s.program, s.work, cell, copies) for copies in ((1, 1, 1), (2, 2, 3))]
+    if s.quick:
+        sizes = [size.lasting(50, 200) for size in sizes]
+    rows = many_particles.measure(s.program, sizes, s.rounds, s.work)
+    s.write("many_particles", rows, many_particles.table(rows))
+
+
+def run_types(s: Session) -> None:
+    """several types of particles beside one"""
+    case = cases.compression(s.program, s.work, 2000 if s.quick else 20000)
+    if s.quick:
+        case = case.lasting(100, 1000)
+    rows = many_types.measure(s.program, case, s.rounds, s.work)
+    s.write("types", rows, many_types.table(rows))
+
+
 PARTS: Dict[str, Callable[[Session], None]] = {
     "kernel": run_kernel,
     "cost": run_cost,
@@ -142,11 +161,13 @@ PARTS: Dict[str, Callable[[Session], None]] = {
     "scaling": run_scaling,
     "diameters": run_diameters,
     "memory": run_memory,
+    "many_particles": run_many_particles,
+    "types": run_types,
 }
 
 
 def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace:
-    parts = "\n".join(f"  {name:13} {part.__doc__}" for name, part in PARTS.items())
+    parts = "\n".join(f"  {name:14} {part.__doc__}" for name, part in PARTS.items())
     parser = argparse.ArgumentParser(description=f"{__doc__}\n\nparts:\n{parts}",
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", nargs="+", choices=list(PARTS), default=list(PARTS),

@@ -6,7 +6,8 @@ import hashlib
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Dict, Tuple
+from types import MappingProxyType
+from typing import Dict, Mapping, Tuple
 
 from .lammps import Program, run_lammps
 from .styles import Material, Style, gamma_of_restitution, make_styles
@@ -34,6 +35,8 @@ class Case:
     copies: Tuple[int, int, int] = (1, 1, 1)
     warm: int = 500
     steps: int = 1000
+    rebuild: int = 0    #: steps between neighbour lists; 0: a list when one is needed
+    types: int = 1
 
     @property
     def styles(self) -> Dict[str, Style]:
@@ -43,12 +46,13 @@ class Case:
         """The -var arguments; writes the style's file."""
         folder.mkdir(parents=True, exist_ok=True)
         file = folder / "style.lmp"
-        file.write_text(style.lines, encoding="utf-8")
+        file.write_text(style.lines_of(self.types), encoding="utf-8")
         words = {"data": self.data, "style": file, "measure": HERE / "measure.lmp",
                  "warm": self.warm, "steps": self.steps,
                  "census": "yes" if style.is_eepa else "no"}
         if self.infile.name == "in.compression":
             words.update(zip(("nx", "ny", "nz"), self.copies))
+            words.update(rebuild=self.rebuild, types=self.types)
         return {name: str(word) for name, word in words.items()}
 
     def lasting(self, warm: int, steps: int) -> "Case":
@@ -75,16 +79,31 @@ def compression(program: Program, work: Path, cell: int,
                 packing(program, work, cell), copies, warm=min(500, steps // 4), steps=steps)
 
 
-def packing(program: Program, work: Path, particles: int) -> Path:
-    """The start file of in.compression, made if it is not there."""
+def dense(program: Program, work: Path, cell: int,
+          copies: Tuple[int, int, int] = (1, 1, 1)) -> Case:
+    """A packing with friction, which has fewer contacts, and a new neighbour list every 50 steps, as in a flow."""
+    count = cell * math.prod(copies)
+    steps = max(200, min(4000, round(8.0e7 / count)))
+    data = packing(program, work, cell, {"mu": "0.5", "pressure": "5e3"})
+    return Case(f"dense {count}", HERE / "in.compression", POWDER, data, copies,
+                warm=min(500, steps // 4), steps=steps, rebuild=50)
+
+
+def packing(program: Program, work: Path, particles: int,
+            variables: Mapping[str, str] = MappingProxyType({})) -> Path:
+    """The start file of in.compression, made if it is not there.
+
+    :param variables: of in.packing
+    """
     infile = HERE / "in.packing"
-    key = hashlib.sha256(infile.read_bytes()).hexdigest()[:12]
+    key = hashlib.sha256(infile.read_bytes() + repr(sorted(variables.items())).encode()
+                         ).hexdigest()[:12]
     data = work / f"packing_{particles}_{key}.data"
     if not data.is_file():
         print(f"  packing {particles} particles, once, into {data}", flush=True)
         folder = work / f"packing_{particles}"
         folder.mkdir(parents=True, exist_ok=True)
         partial = folder / "packing.data"
-        run_lammps(program, infile, folder, {"n": str(particles), "out": str(partial)})
+        run_lammps(program, infile, folder, {"n": str(particles), "out": str(partial), **variables})
         partial.rename(data)
     return data

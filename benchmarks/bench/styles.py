@@ -49,6 +49,23 @@ class Style:
     def lines(self) -> str:
         return f"pair_style {self.pair_style}\npair_coeff * * {self.pair_coeff}\n"
 
+    def lines_of(self, types: int) -> str:
+        """The same for particles of several types, which move alike: their friction differs so little, but by so
+        much that no two pairs of types have the same coefficients.
+
+        :raise ValueError: for LAMMPS's own styles
+        """
+        if types == 1:
+            return self.lines
+        if not self.is_eepa:
+            raise ValueError(f"{self.name}: several types are for gran/eepa alone")
+        text = f"pair_style {self.pair_style}\n"
+        for k in range(types):
+            words = self.pair_coeff.split()
+            words[4] = f"{float(words[4]) * (1.0 + 1.0e-9 * k * k):.17g}"
+            text += f"pair_coeff {k + 1} {k + 1} {' '.join(words)}\n"
+        return text
+
     @property
     def is_eepa(self) -> bool:
         return self.pair_style.startswith("gran/eepa")

@@ -14,8 +14,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "examples" / "scale_collapse")]
 
-from bench import (cases, cost, instructions, kernel, lammps, lammps_log, memory,  # noqa: E402
-                   output, report, scaling, statistics, styles)
+from bench import (cases, cost, instructions, kernel, lammps, lammps_log,  # noqa: E402
+                   many_particles, many_types, memory, output, report, scaling, statistics, styles)
 
 LMP = os.environ.get("EEPA_LMP")
 
@@ -104,6 +104,12 @@ class Statistics(unittest.TestCase):
                 for k, seconds in enumerate(times)]
         self.assertEqual(scaling.speed_up(rows, two, "pair_s").value, 2.0)
 
+    def test_loss_is_that_of_each_round(self):
+        rows = [{"name": f"s {case}", "round": k, "ns": ns}
+                for case, times in (("small", (80.0, 120.0, 90.0)), ("large", (100.0, 160.0, 100.0)))
+                for k, ns in enumerate(times)]
+        self.assertAlmostEqual(many_particles.loss(rows, "s", "small", "large").value, 0.2)
+
     def test_memory_of_a_further_particle(self):
         self.assertEqual(memory.per_particle({"peak_kb": 100, "atoms": 1000},
                                              {"peak_kb": 300, "atoms": 3000}), 102.4)
@@ -126,6 +132,19 @@ class Styles(unittest.TestCase):
             self.assertEqual(some[calmed].lines,
                              some[name].lines.replace(" 50 ", f" {gamma:.9g} ", 1))
             self.assertNotIn(calmed, styles.make_styles(cases.POWDER))
+
+    def test_types_differ(self):
+        some = styles.make_styles(cases.POWDER)
+        lines = some["gran/eepa full"].lines_of(3).splitlines()
+        self.assertEqual(lines[0], "pair_style gran/eepa linear")
+        self.assertEqual([line.split()[:3] for line in lines[1:]],
+                         [["pair_coeff", str(k), str(k)] for k in (1, 2, 3)])
+        frictions = [float(line.split()[7]) for line in lines[1:]]
+        self.assertEqual(len(set(frictions)), 3)
+        for friction in frictions:
+            self.assertAlmostEqual(friction, cases.POWDER.mu, places=7)
+        with self.assertRaisesRegex(ValueError, "several types"):
+            some[styles.HOOKE].lines_of(2)
 
     def test_commands(self):
         program = lammps.Program(Path("lmp"))
@@ -207,6 +226,20 @@ class InLammps(unittest.TestCase):
         output.write_csv(cost_csv, rows)
         with cost_csv.open(encoding="utf-8") as file:
             self.assertEqual(len(list(csv.DictReader(file))), len(rows))
+
+    def test_copies_and_types_of_a_packing_with_friction(self):
+        sizes = [cases.dense(self.program, self.work, 300, copies).lasting(20, 100)
+                 for copies in ((1, 1, 1), (2, 1, 1))]
+        rows = many_particles.measure(self.program, sizes, 1, self.work)
+        self.assertEqual([row["atoms"] for row in rows], [300, 600] * len(many_particles.STYLES))
+        for row in rows:
+            self.assertEqual(row["builds"], 2)
+            self.assertLess(row["contacts"], 2.9 * row["atoms"])    # without friction there are 3
+        self.assertIn("gran/eepa full, dense 600", many_particles.table(rows))
+        rows = many_types.measure(self.program, sizes[0], 1, self.work)
+        self.assertEqual([row["types"] for row in rows], list(many_types.COUNTS))
+        self.assertEqual(len({row["contacts"] for row in rows}), 1)
+        self.assertIn("1.000 [1.000, 1.000]", many_types.table(rows))
 
     def test_known_and_unknown_pair_styles(self):
         self.assertTrue(lammps.has_pair_style(self.program, self.work, "gran/eepa"))
