@@ -5,6 +5,8 @@
 #   EEPA_CACHE_DIR         where source and library are kept: $EEPA_CACHE,
 #                          else $XDG_CACHE_HOME/eepa, else $HOME/.cache/eepa
 #   EEPA_LAMMPS_ARGS       more -D arguments for LAMMPS's own configuration (a list)
+#   EEPA_ARCH              LAMMPS is compiled for the same processor as the package; with
+#                          -D EEPA_LAMMPS_ARGS=-DCMAKE_CXX_FLAGS=... you choose LAMMPS's flags yourself
 #
 # `dump vtk` is in the library where CMake finds VTK 9, `dump image` of PNG files where it finds PNG.
 #
@@ -118,6 +120,18 @@ set(_eepa_clean_env ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS --unset=MAKELEVEL 
 # (EXTRA-DUMP).
 set(_eepa_packages GRANULAR RIGID MOLECULE BPM MISC EXTRA-FIX EXTRA-COMPUTE EXTRA-DUMP OPENMP PLUGIN)
 
+# A quarter of a granular run is LAMMPS's own: neighbour lists, communication, integration. Products and sums stay
+# rounded one by one, for else the results of a run would depend on whether the processor has a fused instruction.
+# The user's own flags come last and win.
+string(STRIP "${eepa_arch_flag} -ffp-contract=off $ENV{CXXFLAGS}" _eepa_flags)
+
+# What `native` means on this machine: a cache may be shared by machines with different processors.
+set(_eepa_machine "")
+if(eepa_arch_flag STREQUAL "-march=native")
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -x c++ -dM -E /dev/null
+    OUTPUT_VARIABLE _eepa_machine ERROR_QUIET)
+endif()
+
 # The configuration file of VTK, or nothing. In a project of its own, because finding VTK needs C and defines some
 # hundred targets.
 function(_eepa_find_vtk variable)
@@ -163,6 +177,7 @@ function(_eepa_build_lammps source build)
       -D "CMAKE_MAKE_PROGRAM=${CMAKE_MAKE_PROGRAM}"
       -D "CMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" ${launcher}
       -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_STANDARD=17 -D CMAKE_EXPORT_COMPILE_COMMANDS=on
+      -D "CMAKE_CXX_FLAGS=${_eepa_flags}"
       -D BUILD_SHARED_LIBS=on -D BUILD_MPI=on -D BUILD_OMP=on
       ${packages} ${graphics}
       -D WITH_PNG=${png} -D WITH_JPEG=off -D WITH_GZIP=off -D WITH_FFMPEG=off -D WITH_CURL=off
@@ -251,7 +266,7 @@ function(_eepa_obtain_lammps)
   # Whatever could make a library differ, so that two configurations never share one by mistake.
   string(SHA256 key "${source}|${version}|${CMAKE_CXX_COMPILER}|${CMAKE_CXX_COMPILER_ID}|\
 ${CMAKE_CXX_COMPILER_VERSION}|${CMAKE_GENERATOR}|${MPI_CXX_LIBRARIES}|${PNG_LIBRARIES}|${_eepa_vtk}|\
-${EEPA_LAMMPS_ARGS}|$ENV{CXXFLAGS}|$ENV{LDFLAGS}|recipe 2")
+${EEPA_LAMMPS_ARGS}|${_eepa_flags}|${_eepa_machine}|$ENV{LDFLAGS}|recipe 2")
   string(SUBSTRING ${key} 0 12 key)
   set(build "${cache}/build/lammps-${name}-${key}")
   set(library "${build}/liblammps${CMAKE_SHARED_LIBRARY_SUFFIX}")
