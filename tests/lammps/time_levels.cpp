@@ -15,7 +15,6 @@
 #include <cstdio>
 
 using namespace eepa_test;
-using LAMMPS_NS::SurfacePoint;
 using LAMMPS_NS::WallSurfaces;
 
 namespace {
@@ -92,7 +91,7 @@ TEST(Groove, GrainLeavesAtTheSamePlaceWithAnyTimeStep)
 }
 
 // du/dt against the normals of two places.
-TEST(WallSurfaces, NormalOfACylinderTurnsWithTheWay)
+TEST(WallSurfaces, NormalOfACylinderTurnsWithTheMotion)
 {
   WallSurfaces cylinder;
   cylinder.kind = WallSurfaces::zcylinder;
@@ -102,18 +101,18 @@ TEST(WallSurfaces, NormalOfACylinderTurnsWithTheWay)
   const double h = 1e-5;
   for (const double from_axis : {1.6, 2.4}) {    // inside and outside
     const Vec3 x = Vec3(0.1, -0.2, 0.0) + from_axis * Vec3(0.6, 0.8, 0.5);
-    const Vec3 before = x - h * v, after = x + h * v;
-    const SurfacePoint point = cylinder.nearest(0, x.data(), 0.5);
-    const Vec3 rate = (cylinder.nearest(0, after.data(), 0.5).normal -
-                       cylinder.nearest(0, before.data(), 0.5).normal) /
-        (2.0 * h);
+    const auto at = [&](double time) {
+      const eepa::Body<double> particle = {x + time * v, v, Vec3::Zero(), 0.5, 1.0};
+      return cylinder.nearest(0, particle);
+    };
+    const Vec3 rate = (at(h).normal - at(-h).normal) / (2.0 * h);
     EXPECT_GT(rate.norm(), 0.1);
-    EXPECT_LT((WallSurfaces::turning(point, v) - rate).norm(), 1e-9);
+    EXPECT_LT((at(0.0).normal_rate - rate).norm(), 1e-9);
   }
   WallSurfaces plane;
   plane.has_lo = true;
-  const Vec3 x(1, 2, 0.4);
-  EXPECT_EQ(WallSurfaces::turning(plane.nearest(0, x.data(), 0.5), v), Vec3(Vec3::Zero()));
+  const eepa::Body<double> particle = {Vec3(1, 2, 0.4), v, Vec3::Zero(), 0.5, 1.0};
+  EXPECT_EQ(plane.nearest(0, particle).normal_rate, Vec3(Vec3::Zero()));
 }
 
 }    // namespace
