@@ -112,6 +112,8 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     contact.twist = 0.1 * bytes.vector(1.0)[0];
     if (bytes.next() % 8 != 0) overlap = reach * bytes.unit();    // else: at rest
     contact.overlap = overlap;
+    contact.arm_i = lever_arm(radius, overlap);
+    contact.arm_j = wall ? 0.0 : lever_arm(other_radius, overlap);
     if (!(overlap > 0.0)) {
       const History last = load_history<Layout>(stored.data());
       const Dissipation lost = dissipation_of_opening<ContactLaw>(c, contact, time_step, last);
