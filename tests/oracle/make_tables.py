@@ -35,6 +35,13 @@ NORMAL = [
     dict(law="linear", n=1.5, k1=2e5, k2=5e5, k_adh=3e5, f0=-0.03, kt=3e3, d_ref=5e-4),
     dict(law="linear", n=1.25, k1=4e4, k2=1e5, k_adh=5e4, kt=3e3),
     dict(law="linear", n=2.0, k1=3e7, k2=5e7, k_adh=2e7, f0=-0.01, kt=3e3),
+    dict(law="luding", k1=800.0, k2=9000.0, k_adh=0.0, depth=0.08, f0=-0.03),
+    dict(law="luding", **ARTICLE, depth=0.05),
+    dict(law="luding", k1=800.0, k2=3000.0, k_adh=1500.0, f0=-0.02, mu=0.25, depth=0.1, d_ref=2e-3),
+    dict(law="luding", k1=500.0, k2=2e4, k_adh=1500.0, f0=-0.013, depth=0.08, d_ref=5e-4,
+         bound="contact"),
+    dict(law="linear", **ARTICLE, f0=-0.05, bound="contact"),
+    dict(law="plateau", **ARTICLE, f0=-0.05, bound="contact", d_ref=2e-3),
 ]
 FULL = [
     dict(law="plateau", **ARTICLE, f0=-0.05, restitution=0.4, rolling="constant", mu_r=0.05),
@@ -53,6 +60,14 @@ FULL = [
     dict(law="linear", n=1.5, k1=2e5, k2=5e5, k_adh=3e5, f0=-0.03, kt=3e3, restitution=0.3,
          rolling="sds", k_r=500.0, g_r=0.004, mu_r=0.15, d_ref=7e-4, limit_damping=True),
     dict(law="linear", n=1.25, k1=4e4, k2=1e5, k_adh=5e4, kt=3e3, B_n=0.02, B_t=0.01, mu=0.0),
+    dict(law="luding", **ARTICLE, f0=-0.05, restitution=0.4, rolling="constant", mu_r=0.05,
+         depth=0.05),
+    dict(law="luding", k1=700.0, k2=8e3, k_adh=3e3, B_n=0.02, B_t=0.01, mu=0.3, depth=0.04,
+         d_ref=7e-4, rolling="sds", k_r=300.0, g_r=0.002, mu_r=0.1, bound="contact",
+         limit_damping=True),
+    dict(law="linear", **ARTICLE, f0=-0.05, restitution=0.4, rolling="sds", k_r=400.0, g_r=0.003,
+         mu_r=0.2, bound="contact"),
+    dict(law="plateau", **ARTICLE, f0=-0.05, restitution=0.6, d_ref=5e-4, bound="contact"),
 ]
 
 
@@ -81,7 +96,9 @@ def overlaps(rng, rows, size):
 
 
 def header(p, **geometry):
-    pairs = {**p, **geometry}
+    # What stands at its default need not be said, so that the older tables stay as they are.
+    pairs = {name: v for name, v in {**p, **geometry}.items()
+             if name not in ("depth", "bound") or v != law.DEFAULTS[name]}
     pairs["kt"] = p["kt"] if p["kt"] is not None else "default"
     return "".join(
         f"# {name} {exact(v) if isinstance(v, float) else ('none' if v is None else v)}\n"

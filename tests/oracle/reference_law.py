@@ -1,8 +1,9 @@
 """The contact law a second time, plainly, as an oracle for the kernel.
 
 Written from the contract (../../../shared/DESIGN.md, sections 1 and 2) alone, before its author had
-read the kernel: nothing here is shared with kernel/eepa, and nothing should be. Slow and obvious is
-the aim. Plain Python floats; vectors are NumPy arrays of 3.
+read the kernel: nothing here is shared with kernel/eepa, and nothing should be. `luding` and `bound`
+stood here before the kernel had them. Slow and obvious is the aim. Plain Python floats; vectors are
+NumPy arrays of 3.
 
 Names: delta overlap, delta_p plastic overlap, u unit normal that points at i, xi tangential spring.
 """
@@ -12,7 +13,7 @@ import math
 import numpy as np
 
 DEFAULTS = dict(
-    law="linear",          # plateau | linear
+    law="linear",          # plateau | linear | luding
     n=1.0,                 # exponent, `linear` only
     k1=1.0, k2=2.0, k_adh=0.0, f0=0.0, mu=0.5,
     kt=None,               # None: 2/7 k1
@@ -20,6 +21,8 @@ DEFAULTS = dict(
     B_n=0.0, B_t=0.0,
     rolling="none",        # none | constant | sds
     mu_r=0.0, k_r=0.0, g_r=0.0,
+    depth=None,            # phi_f, `luding` only
+    bound="adhesive",      # adhesive | contact: the bound of friction
     d_ref=None,            # None: no scaling
     limit_damping=False,
 )
@@ -39,6 +42,10 @@ def scaled(p, R_i, R_j):
     q = dict(p)
     if q["kt"] is None:
         q["kt"] = 2.0 / 7.0 * q["k1"]
+    if p["depth"] is not None:
+        # A length of the contact itself: k2/k1 does not scale, and neither does the depth.
+        reach = 2.0 * R_i if R_j is None else 2.0 * R_i * R_j / (R_i + R_j)
+        q["delta_star"] = q["k2"] / (q["k2"] - q["k1"]) * p["depth"] * reach
     if p["d_ref"] is None:
         return q
     d = 2.0 * R_i if R_j is None else R_i + R_j
@@ -67,12 +74,57 @@ def plastic_overlap(q, delta_max):
     """delta_p from delta_max."""
     if q["law"] == "plateau":
         return q["k1"] / q["k2"] * delta_max
+    if q["law"] == "luding":
+        return (1.0 - q["k1"] / unloading_stiffness(q, delta_max)) * delta_max
     return ((1.0 - q["k1"] / q["k2"]) * delta_max ** q["n"]) ** (1.0 / q["n"])
+
+
+def unloading_stiffness(q, delta_max):
+    """`luding`: grows from k1 to its limit k2, which it has from delta_star on."""
+    if delta_max >= q["delta_star"]:
+        return q["k2"]
+    return q["k1"] + (q["k2"] - q["k1"]) * delta_max / q["delta_star"]
+
+
+def luding_line(q, delta, delta_max):
+    """The unloading line of a contact that remembers delta_max <= delta_star."""
+    return unloading_stiffness(q, delta_max) * (delta - plastic_overlap(q, delta_max))
+
+
+def luding_memory(q, delta, delta_max):
+    """The delta_max whose unloading line meets the adhesive branch at delta, by bisection: it lies
+    between delta (where the line is at k1 delta) and the present one (where it is below)."""
+    low, high = delta, delta_max
+    while True:
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            return middle
+        if luding_line(q, delta, middle) > -q["k_adh"] * delta:
+            low = middle
+        else:
+            high = middle
+
+
+def luding(q, delta, delta_max):
+    """f_hys of `luding`. What is remembered is never beyond delta_star, where the loading branch
+    turns into the limit branch: a k2 line, the same up and down."""
+    k1, k_adh, f0 = q["k1"], q["k_adh"], q["f0"]
+    remembered = min(delta_max, q["delta_star"])
+    if delta >= remembered:
+        if delta <= q["delta_star"]:
+            return f0 + k1 * delta, "loading", delta
+        return f0 + luding_line(q, delta, q["delta_star"]), "loading", q["delta_star"]
+    line = luding_line(q, delta, remembered)
+    if line <= -k_adh * delta:
+        return f0 - k_adh * delta, "adhesive", luding_memory(q, delta, remembered)
+    return f0 + line, "unloading", remembered
 
 
 def hysteretic(q, delta, delta_max):
     """f_hys, branch and the (possibly new) delta_max at an overlap delta > 0."""
     k1, k2, k_adh, f0, n = q["k1"], q["k2"], q["k_adh"], q["f0"], q["n"]
+    if q["law"] == "luding":
+        return luding(q, delta, delta_max)
     virgin = delta >= delta_max
     delta_max = max(delta, delta_max)
     if q["law"] == "plateau":
@@ -99,6 +151,8 @@ def frozen_force(q, delta, delta_max):
     without going beyond delta_max and without lowering delta_p."""
     if q["law"] == "plateau":
         return hysteretic(q, delta, delta_max)[0]
+    if q["law"] == "luding":
+        return q["f0"] + luding_line(q, delta, delta_max)
     y_p = (1.0 - q["k1"] / q["k2"]) * delta_max ** q["n"]
     return q["f0"] + q["k2"] * (delta ** q["n"] - y_p)
 
@@ -121,13 +175,17 @@ def elastic_energy(q, delta, delta_max):
         else:
             w = 0.5 * k2 * (a - delta_p) ** 2 + (-k_adh * delta_p - f0) * (delta - a)
         return w + f0 * delta
+    if q["law"] == "luding":
+        return 0.5 * unloading_stiffness(q, delta_max) * (delta - delta_p) ** 2 + f0 * delta
     y_p = delta_p ** n
     w = k2 * ((delta ** (n + 1) - delta_p ** (n + 1)) / (n + 1) - y_p * (delta - delta_p))
     return w + f0 * delta
 
 
 def friction_bound(q, f_hys, delta, delta_max):
-    """Coulomb bound with adhesion; delta_max is the one after the update. Never negative."""
+    """Coulomb bound; delta_max is the one after the update. Never negative."""
+    if q["bound"] == "contact":
+        return q["mu"] * max(f_hys, 0.0)
     if q["law"] == "plateau":
         delta_p = plastic_overlap(q, delta_max)
         # -f0 stands outside mu: the article's equation, to the letter.
