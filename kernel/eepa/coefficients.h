@@ -13,6 +13,8 @@ namespace eepa {
 struct Coefficients {
   double k1, k2, k_adh, f0;      ///< as in Parameters
   double mu, kt;                 ///< as in Parameters, kt resolved
+  double depth;                  ///< as in Parameters
+  FrictionBound bound;           ///< as in Parameters
   double inverse_kt;             ///< 1/kt; 0 where kt = 0
   double plastic_fraction;       ///< linear: (delta_p/delta_max)^n = 1 - k1/k2; plateau: k1/k2
   double adhesive_memory;        ///< linear: delta_max/delta on the adhesive branch, >= 1
@@ -64,6 +66,8 @@ EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
   c.k_adh = p.k_adh;
   c.f0 = p.f0;
   c.mu = p.mu;
+  c.depth = p.depth;
+  c.bound = p.bound;
   c.kt = tangential_stiffness(p);
   c.inverse_kt = c.kt > 0.0 ? 1.0 / c.kt : 0.0;
   c.exponent = s.exponent;

@@ -65,11 +65,12 @@ EEPA_FUNCTION Dashpots<Real> dashpots(const Coefficients &c, const ScaleOf<Real>
 template <class Real>
 EEPA_FUNCTION Real friction_bound(const Coefficients &c, const NormalForceOf<Real> &normal)
 {
+  if (c.bound == FrictionBound::contact) return c.mu * eepa::max<Real>(normal.force, 0.0);
   return eepa::max<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, 0.0);
 }
 
 /// The law of one contact: normal, tangential, damping, rolling and twisting composed.
-/// \tparam NormalLaw  PlateauLaw, LinearLaw<UnitExponent> or LinearLaw<GeneralExponent>
+/// \tparam NormalLaw  of dispatch.h
 /// \tparam RollingLaw  RollingNone, RollingConstant or RollingSds
 /// \tparam TwistingLaw  TwistingNone or TwistingMarshall
 template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> struct ContactLaw {

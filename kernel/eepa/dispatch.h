@@ -3,6 +3,7 @@
 #define EEPA_DISPATCH_H
 
 #include "contact_law.h"
+#include "luding_law.h"
 
 // Host only: turns what a user chose at run time into a compile-time policy, once, outside of
 // every loop. The list of all laws that exist is here and nowhere else.
@@ -41,6 +42,8 @@ auto with_law(const LawSettings &settings, RollingModel rolling, TwistingModel t
 {
   if (settings.law == Law::plateau)
     return detail::with_models<PlateauLaw>(rolling, twisting, function);
+  if (settings.law == Law::luding)
+    return detail::with_models<LudingLaw>(rolling, twisting, function);
   if (settings.exponent == 1.0)
     return detail::with_models<LinearLaw<UnitExponent>>(rolling, twisting, function);
   return detail::with_models<LinearLaw<GeneralExponent>>(rolling, twisting, function);

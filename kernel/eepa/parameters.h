@@ -7,7 +7,7 @@
 namespace eepa {
 
 /// The normal law; never a silent default, the user names one.
-enum class Law { plateau, linear };
+enum class Law { plateau, linear, luding };
 
 /// How a contact resists rolling.
 enum class RollingModel { none, constant, sds };
@@ -15,13 +15,19 @@ enum class RollingModel { none, constant, sds };
 /// How a contact resists twisting, that is relative spin about its normal.
 enum class TwistingModel { none, marshall };
 
+/// What bounds the tangential force.
+enum class FrictionBound {
+  adhesive,    ///< that of the law, where adhesion presses as well
+  contact      ///< mu max(f_hys, 0)
+};
+
 /// How the dashpots are given.
 enum class Damping { restitution, viscous };
 
 /// What holds for all contacts of a pair style or a wall.
 struct LawSettings {
   Law law = Law::linear;
-  double exponent = 1.0;              ///< n of the linear law, [1, 2]; 1 for plateau
+  double exponent = 1.0;              ///< n of the linear law, [1, 2]; 1 for the others
   bool scaled = false;                ///< whether coefficients scale with the contact's size
   double reference_diameter = 1.0;    ///< d_ref of the coefficients if scaled [length], > 0
   bool limit_damping = false;         ///< the normal dashpot adds no tension
@@ -36,6 +42,8 @@ struct Parameters {
   double k_adh = 0.0;    ///< adhesive stiffness, >= 0 [force/length^n]
   double f0 = 0.0;       ///< constant pull-off force, <= 0, negative attracts [force]
   double mu = 0.0;       ///< sliding friction, >= 0
+  double depth = 0.0;    ///< phi_f, largest plastic overlap over 2 R*, (0, 1]; luding only
+  FrictionBound bound = FrictionBound::adhesive;
 
   bool kt_given = false;
   double kt = 0.0;    ///< tangential stiffness, >= 0 [force/length]; 2/7 k1 if not given

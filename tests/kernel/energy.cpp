@@ -8,6 +8,16 @@
 namespace energy_test {
 using namespace eepa_test;
 
+const double top = 2e-5;
+
+/// `luding` whose limit is delta* where R* is that of NormalPath and of Bodies at a wall
+Material luding(double k2, double k_adh, double f0, double limit)
+{
+  Material m = material(Law::luding, 1e3, k2, k_adh, f0);
+  m.p.depth = limit * (k2 - m.p.k1) / k2 / (2.0 * Bodies().R_i);
+  return m;
+}
+
 std::vector<Material> materials()
 {
   return {material(Law::plateau, 1e3, 2e3, 5e2),
@@ -21,10 +31,11 @@ std::vector<Material> materials()
           material(Law::linear, 1e3, 9e3, 0.0),
           material(Law::linear, 3e5, 7e5, 4e5, -0.001, 1.5),
           material(Law::linear, 3e5, 7e5, 0.0, 0.0, 1.5),
-          material(Law::linear, 1e8, 1.3e8, 3e8, -0.001, 2.0)};
+          material(Law::linear, 1e8, 1.3e8, 3e8, -0.001, 2.0),
+          luding(2e3, 5e2, 0.0, 3.0 * top),
+          luding(5e3, 2e3, -0.002, 0.6 * top),
+          luding(9e3, 0.0, 0.0, 1.1 * top)};
 }
-
-const double top = 2e-5;
 
 // Its slope is f_hys wherever the history is not changing, by central differences along the path
 TEST(Energy, SlopeIsTheForceAtFrozenHistory)
@@ -564,6 +575,7 @@ TEST(Energy, InitialOverlapIsNotBookedAsLost)
 {
   for (const Material &m : materials()) {
     Bodies b;
+    b.R_j = b.m_j = infinity;
     NormalPath path(m);
     History h;
     EXPECT_EQ(evaluate(m, b, 1e-6, h).lost.hysteresis, 0.0);

@@ -236,4 +236,26 @@ TEST(Friction, BoundOfThePlateauLawAndItsClamp)
   EXPECT_EQ(out.friction_bound, 0.0);
   EXPECT_EQ(out.tangential_force.norm(), 0.0);
 }
+
+// `bound contact`: mu f_hys where it presses, f0 included, and nothing where it attracts
+TEST(Friction, BoundOfTheContactForceAlone)
+{
+  for (Law law : {Law::plateau, Law::linear, Law::luding}) {
+    Material m = material(law, 1e3, 2e3, 1e3, -0.004);
+    m.p.depth = 0.02;
+    m.p.bound = FrictionBound::contact;
+    Bodies b;
+    b.v_i = Vec3(0.0, 100.0, 0.0);
+    History history;
+    bool attracts = false, presses = false;
+    for (double overlap : {2e-6, 3e-5, 2.6e-5, 1e-5, 1e-7}) {
+      b.overlap = overlap;
+      const Outcome out = evaluate(m, b, 1e-6, history);
+      (out.hysteretic_force > 0.0 ? presses : attracts) = true;
+      EXPECT_EQ(out.friction_bound, 0.5 * std::max(out.hysteretic_force, 0.0));
+      EXPECT_NEAR(out.tangential_force.norm(), out.friction_bound, 1e-15);
+    }
+    EXPECT_TRUE(attracts && presses);
+  }
+}
 }    // namespace friction_test

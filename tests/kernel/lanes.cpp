@@ -23,6 +23,7 @@ struct Case {
   RollingModel rolling;
   Damping damping;
   TwistingModel twisting = TwistingModel::none;
+  FrictionBound bound = FrictionBound::adhesive;
 };
 
 /// Numbers from a fixed seed, and contacts made of them.
@@ -145,6 +146,8 @@ TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
       p.mu_r = generator.between(0.0, 0.2);
       p.kr = generator.between(0.0, 1e3);
       p.rolling_viscous = generator.between(0.0, 1.0);
+      if (given.settings.law == Law::luding) p.depth = generator.between(0.01, 0.2);
+      p.bound = given.bound;
       LawSettings settings = given.settings;
       settings.limit_damping = round % 2;
       const Coefficients c = resolve(p, settings);
@@ -240,6 +243,13 @@ const Case cases[] = {
      Damping::viscous, TwistingModel::marshall},
     {"exponent_constant_twisting", settings(Law::linear, 1.5, false), RollingModel::constant,
      Damping::restitution, TwistingModel::marshall},
+    {"luding", settings(Law::luding, 1.0, false), RollingModel::none, Damping::viscous},
+    {"luding_scaled_sds", settings(Law::luding, 1.0, true), RollingModel::sds,
+     Damping::restitution},
+    {"luding_constant_twisting_contact", settings(Law::luding, 1.0, false), RollingModel::constant,
+     Damping::restitution, TwistingModel::marshall, FrictionBound::contact},
+    {"linear_contact", settings(Law::linear, 1.0, false), RollingModel::none, Damping::viscous,
+     TwistingModel::none, FrictionBound::contact},
 };
 INSTANTIATE_TEST_SUITE_P(Laws, SideBySide, testing::ValuesIn(cases), [](const auto &info) {
   return std::string(info.param.name);

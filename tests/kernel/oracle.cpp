@@ -56,7 +56,9 @@ struct Table {
   Material material() const
   {
     Material m;
-    m.law.law = head.at("law") == "plateau" ? Law::plateau : Law::linear;
+    m.law.law = head.at("law") == "plateau" ? Law::plateau
+        : head.at("law") == "luding"        ? Law::luding
+                                            : Law::linear;
     m.law.exponent = number("n");
     if (!none("d_ref")) scale_with_diameter(m, number("d_ref"));
     m.law.limit_damping = head.at("limit_damping") == "True";
@@ -65,6 +67,8 @@ struct Table {
     m.p.k_adh = number("k_adh");
     m.p.f0 = number("f0");
     m.p.mu = number("mu");
+    if (head.count("depth")) m.p.depth = number("depth");
+    if (head.count("bound")) m.p.bound = FrictionBound::contact;
     m.p.kt_given = head.at("kt") != "default";
     if (m.p.kt_given) m.p.kt = number("kt");
     if (none("restitution")) {
@@ -101,12 +105,13 @@ TEST(Oracle, NormalPaths)
 {
   double worst = 0.0;
   int compared = 0;
-  for (int number = 0; number < 13; number++) {
+  for (int number = 0; number < 19; number++) {
     const Table table(numbered("normal", number));
     SCOPED_TRACE(numbered("normal", number));
     ASSERT_GT(table.rows.size(), 100u);
     const Material m = table.material();
-    NormalPath path(m, table.number("R_i") + table.number("R_j"));
+    const double R_i = table.number("R_i"), R_j = table.number("R_j");
+    NormalPath path(m, R_i + R_j, effective_radius(R_i, R_j));
     // the terms that a force is the difference of, at their largest
     double force_scale = 0.0, energy_scale = 0.0, last = 0.0;
     for (const auto &row : table.rows) {
@@ -142,7 +147,7 @@ TEST(Oracle, FullContacts)
 {
   double worst = 0.0;
   int compared = 0;
-  for (int number = 0; number < 20; number++) {
+  for (int number = 0; number < 28; number++) {
     SCOPED_TRACE(numbered("full", number));
     const Table table(numbered("full", number));
     ASSERT_GT(table.rows.size(), 30u);

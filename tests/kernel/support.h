@@ -115,9 +115,11 @@ class NormalPath {
   }
 
  public:
-  explicit NormalPath(const Material &m, double size = 1.0) :
+  /// \param radius  R*
+  explicit NormalPath(const Material &m, double size = 1.0, double radius = Bodies().R_i) :
       m_(m), c_(resolve(m.p, m.law)), scale_(contact_scale(c_, size))
   {
+    scale_.effective_radius = radius;
   }
   NormalForce to(double overlap)
   {
@@ -156,7 +158,7 @@ class NormalPath {
       return decltype(normal)::opening_loss(c_, scale_, max_overlap);
     });
   }
-  double bound(const NormalForce &f) const { return c_.mu * f.coulomb_force + f.coulomb_offset; }
+  double bound(const NormalForce &f) const { return friction_bound(c_, f); }
 
   double max_overlap = 0.0;
 
