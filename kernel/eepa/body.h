@@ -6,15 +6,15 @@
 
 namespace eepa {
 
-// What a driver gathers, and what it gets back to scatter. All between the two is the kernel's.
+// A driver gathers a Body and scatters a Wrench. Everything between the two is in the kernel.
 
 /// A particle as its contacts see it.
 template <class Real> struct Body {
   Vector3<Real> x;        ///< centre [length]
-  Vector3<Real> v;        ///< half a step ago [length/time]
-  Vector3<Real> omega;    ///< half a step ago [1/time]
+  Vector3<Real> v;        ///< velocity half a step ago [length/time]
+  Vector3<Real> omega;    ///< angular velocity half a step ago [1/time]
   Real radius;            ///< > 0 [length]
-  Real mass;              ///< > 0, infinity where it can not move [mass]
+  Real mass;              ///< > 0, infinity where the particle can not move [mass]
 };
 
 /// The point of a wall that is nearest to a particle. The wall is a partner of infinite mass and
@@ -22,27 +22,27 @@ template <class Real> struct Body {
 template <class Real> struct WallPoint {
   Vector3<Real> normal;      ///< unit vector from the wall to the particle's centre
   Real overlap;              ///< radius less distance [length]
-  Vector3<Real> velocity;    ///< of the wall there [length/time]
+  Vector3<Real> velocity;    ///< of the wall at that point [length/time]
   Vector3<Real>
       normal_rate;    ///< du/dt while the particle moves along the wall; 0 at a plane [1/time]
 };
 
-/// What a contact does to its partners.
+/// Force and torques of a contact on its partners.
 template <class Real> struct Wrench {
-  Vector3<Real> force;       ///< on i; j gets the opposite one [force]
+  Vector3<Real> force;       ///< on i; j gets the opposite force [force]
   Vector3<Real> torque_i;    ///< [force length]
   Vector3<Real> torque_j;    ///< [force length]; unset at a wall
 };
 
-/// A contact with everything that any law reads.
+/// Asks contact_of() for everything that any law reads.
 struct AnyLaw {
   static constexpr bool has_couple = true;
   static constexpr bool reads_effective_radius = true;
 };
 
-/// The contact of two particles whose centres are apart.
-/// \tparam ContactLaw  what it does not read is left unset
-/// \param time_step  that led here; 0 in a set-up call [time]
+/// The contact of two particles whose centres do not coincide.
+/// \tparam ContactLaw  members of the contact that this law does not read are left unset
+/// \param time_step  the step that led to the present positions; 0 in a set-up call [time]
 template <class ContactLaw = AnyLaw, class Real>
 EEPA_FUNCTION ContactOf<Real> contact_of(const Body<Real> &i, const Body<Real> &j, double time_step)
 {
@@ -90,9 +90,9 @@ EEPA_FUNCTION ContactOf<Real> contact_at_wall(const Body<Real> &i, const WallPoi
   return contact;
 }
 
-/// Whether an overlap is deeper than a radius: the centre of one lies within the other, and nothing
-/// that happens from here on has a meaning.
-/// \param radius  the smaller one of the two
+/// Whether an overlap exceeds a radius. The centre of one particle then lies within the other, and
+/// the run has no physical meaning from there on.
+/// \param radius  the smaller one of the two [length]
 template <class Real> EEPA_FUNCTION MaskOf<Real> too_deep(const Real &overlap, const Real &radius)
 {
   return overlap > radius;

@@ -8,8 +8,8 @@
 
 namespace eepa {
 
-/// What the hot loop reads for one pair of types: parameters at d_ref, with everything
-/// derived from them that does not change from contact to contact.
+/// Coefficients that the force loop reads for one pair of types: the parameters at d_ref, and what
+/// derives from them and is the same for all contacts.
 struct Coefficients {
   double k1, k2, k_adh, f0;      ///< as in Parameters
   double mu, kt;                 ///< as in Parameters, kt resolved
@@ -25,7 +25,7 @@ struct Coefficients {
   double viscous_normal;         ///< given B_n, else 0
   double viscous_tangential;     ///< given B_t, else 0
   double mu_r, kr, inverse_kr, rolling_viscous;
-  double twisting_share;                ///< of the friction bound; 0 where twisting is free
+  double twisting_share;                ///< twisting bound over friction bound; 0: no model
   double exponent;                      ///< n
   double inverse_reference_diameter;    ///< 1/d_ref, or 0 when nothing scales
   bool limit_damping;                   ///< as in LawSettings
@@ -46,7 +46,7 @@ EEPA_FUNCTION double restitution_damping(double restitution)
 }
 
 namespace detail {
-  /// Energy of a line k2 (x^n - y^n), y = delta_p, taken from y to x, over k2 x^(n+1).
+  /// Work of the line k2 (x^n - y^n), y = delta_p, from y to x, divided by k2 x^(n+1).
   /// \param plastic_power  (y/x)^n
   EEPA_FUNCTION double line_energy(double plastic_power, double n)
   {
@@ -55,9 +55,9 @@ namespace detail {
   }
 }    // namespace detail
 
-/// Resolves valid parameters into what the hot loop reads.
-/// \param p  parameters that validate() has no errors on
-/// \param s  settings that validate() has no errors on
+/// Resolves valid parameters into coefficients.
+/// \param p  parameters without errors of validate()
+/// \param s  settings without errors of validate()
 EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
 {
   Coefficients c{};
@@ -111,13 +111,13 @@ EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
 
 /// How the coefficients of a contact of size d relate to those at d_ref.
 ///
-/// With s = d/d_ref stiffnesses go with s, forces and given dashpots with s^2 (article,
-/// section 3). For an exponent n the stiffness of force/length^n goes with s^(2-n); that is
-/// written as s times (delta/s)^(n-1) delta, which is the same and exact for s a power of 2.
+/// With s = d/d_ref, stiffnesses scale with s, forces and given dashpots with s^2 (article,
+/// section 3). For an exponent n, a stiffness of [force/length^n] scales with s^(2-n). The spring
+/// force is written as s k (delta/s)^(n-1) delta: the same, and exact for s a power of 2.
 template <class Real> struct ScaleOf {
   Real size = 1.0;            ///< s
   Real inverse_size = 1.0;    ///< 1/s
-  /// R* of the contact [length]; set for normal laws that say reads_effective_radius
+  /// R* of the contact [length]; set only for normal laws with reads_effective_radius
   Real effective_radius = 0.0;
   EEPA_FUNCTION Real stiffness() const { return size; }
   EEPA_FUNCTION Real force() const { return size * size; }

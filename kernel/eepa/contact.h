@@ -16,22 +16,22 @@ template <class Real> struct ContactOf {
   Vector3<Real> velocity;            ///< v_i - v_j [length/time]
   Real arm_i, arm_j;                 ///< a_i, a_j: see lever_arm(); a_j is 0 at a wall [length]
   Vector3<Real> spin;                ///< a_i omega_i + a_j omega_j [length/time]
-  Vector3<Real> turn;                ///< of u since the middle of the step, see turn_of_pair()
+  Vector3<Real> turn;                ///< change of u since mid-step, see turn_of_pair()
   Real twist;                        ///< angle about u in this step, see twist_of_pair()
   Vector3<Real> angular_velocity;    ///< omega_i - omega_j [1/time], for rolling and twisting only
 };
 using Contact = ContactOf<double>;
 
-// A force call at the end of a step sees positions of now and velocities of half a step ago. A
-// displacement is made of a velocity and a normal of the same time, so the normal of the middle
-// of the step is asked for: with a velocity dt/2 older than the normal, a pair whose normal turns
-// while it spins about that normal winds its springs by dt/2 (spin.u) |du/dt|, in every step the
-// same way.
+// A force call at the end of a step sees the present positions and the velocities of half a step
+// ago. A tangential displacement needs velocity and normal of the same time, so it is built with
+// the normal of the middle of the step. With the present normal, a pair that spins about its normal
+// while the normal turns would wind its springs by dt/2 (spin.u) |du/dt| a step, always in the same
+// direction.
 
-/// How far u has turned since the middle of the step, u(t) - u(t - dt/2), of two particles.
+/// Change of u since the middle of the step, u(t) - u(t - dt/2), for two particles.
 /// \param velocity  v_i - v_j [length/time]
 /// \param inverse_distance  of their centres [1/length]
-/// \param time_step  that led here; 0 in a set-up call [time]
+/// \param time_step  the step that led to the present positions; 0 in a set-up call [time]
 template <class Real>
 EEPA_FUNCTION Vector3<Real> turn_of_pair(const Vector3<Real> &normal, const Vector3<Real> &velocity,
                                          const Real &inverse_distance, double time_step)
@@ -40,8 +40,8 @@ EEPA_FUNCTION Vector3<Real> turn_of_pair(const Vector3<Real> &normal, const Vect
   return (Real(0.5 * time_step) * inverse_distance) * across;
 }
 
-/// The angle by which the pair has turned about u in a step: that of its mean angular velocity.
-/// Springs turn with it, so that a pair that rotates rigidly keeps its own.
+/// Angle by which the pair turns about u in a step, with its mean angular velocity. Its springs
+/// turn with it, so that a pair that rotates rigidly keeps them unchanged relative to itself.
 /// \param angular_sum  omega_i + omega_j; a wall does not turn [1/time]
 template <class Real>
 EEPA_FUNCTION Real twist_of_pair(const Vector3<Real> &normal, const Vector3<Real> &angular_sum,
@@ -50,12 +50,12 @@ EEPA_FUNCTION Real twist_of_pair(const Vector3<Real> &normal, const Vector3<Real
   return Real(0.5 * time_step) * dot(angular_sum, normal);
 }
 
-/// m* = m_i m_j / (m_i + m_j); the other mass when one is infinite (frozen, a wall).
+/// m* = m_i m_j / (m_i + m_j); where one mass is infinite (frozen particle, wall), the other mass.
 /// \param mass_i, mass_j  > 0, infinity allowed
 /// \return m*; 0 when both are infinite: neither can move, and a dashpot has nothing to damp
 template <class Real> EEPA_FUNCTION Real effective_mass(const Real &mass_i, const Real &mass_j)
 {
-  // spelled out, for std::numeric_limits has no device functions
+  // a literal, because std::numeric_limits has no device functions
   constexpr double largest = 1.7976931348623157e308;
   const Real sum = mass_i + mass_j;
   const auto infinite = sum > largest;
@@ -64,23 +64,24 @@ template <class Real> EEPA_FUNCTION Real effective_mass(const Real &mass_i, cons
                 mass_i * mass_j / select(infinite, Real(1.0), sum));
 }
 
-/// R* = R_i R_j / (R_i + R_j); a wall has an infinite radius and leaves R_i.
+/// R* = R_i R_j / (R_i + R_j); R_i at a wall, whose radius is infinite.
 template <class Real>
 EEPA_FUNCTION Real effective_radius(const Real &radius_i, const Real &radius_j)
 {
   return effective_mass(radius_i, radius_j);
 }
 
-/// a = R - delta/2, from the centre to the middle of the overlap: for two particles the arms
-/// add up to their distance, so that forces and torques conserve angular momentum.
+/// Lever arm a = R - delta/2, from the centre to the middle of the overlap. The arms of two
+/// particles add up to their distance, so that forces and torques conserve angular momentum.
 /// \return [length]
 template <class Real> EEPA_FUNCTION Real lever_arm(const Real &radius, const Real &overlap)
 {
   return radius - 0.5 * overlap;
 }
 
-/// A vector of the middle of the step as the plane across u had it there: its part in the tangent
-/// plane, carried over to the plane of now, to first order in the turn. A part along u besides.
+/// A vector of the middle of the step: its tangent-plane part at that time, carried over to the
+/// present plane, to first order in the turn. The result also has a part along u, which callers
+/// remove.
 template <class Real>
 EEPA_FUNCTION Vector3<Real> seen_at_mid_step(const ContactOf<Real> &c, const Vector3<Real> &vector)
 {
@@ -91,9 +92,10 @@ EEPA_FUNCTION Vector3<Real> seen_at_mid_step(const ContactOf<Real> &c, const Vec
 ///
 /// v_t = (v_i - v_j) - ((v_i - v_j).u) u - (a_i omega_i + a_j omega_j) x u
 ///
-/// with the u of the middle of the step, where the velocities belong, carried over to the plane of
-/// now. The velocity of the centres needs no correction but one of v_n, that comes and goes with
-/// the overlap; the spin does, because what of it lies along u depends on where u points.
+/// with the u of the middle of the step, the time of the velocities, carried over to the present
+/// plane. The spin needs this correction, because its part along u depends on the direction of u.
+/// The velocity of the centres would need one of order v_n, which cancels over approach and
+/// separation and is left out.
 /// \param normal_velocity  v_n = (v_i - v_j).u
 template <class Real>
 EEPA_FUNCTION Vector3<Real> tangential_velocity(const ContactOf<Real> &c,
@@ -102,13 +104,14 @@ EEPA_FUNCTION Vector3<Real> tangential_velocity(const ContactOf<Real> &c,
   return c.velocity - normal_velocity * c.normal - seen_at_mid_step(c, c.spin).cross(c.normal);
 }
 
-// Winding a spring: it is rotated into the plane of now and turns about u by the twist of the step,
-// as the pair has (as in Yade's ScGeom::rotate); the way of the step is from its middle and turns by
-// half of that. The angle is the twist's arc tangent, which is twist^3/3 less.
+// Winding a spring: the spring is rotated into the present plane and turned about u by the twist of
+// the step, as the pair was (as in Yade's ScGeom::rotate). The displacement of the step belongs to
+// its middle and turns by half the twist. The angle turned is atan(twist), smaller by twist^3/3.
 
 namespace detail {
-  /// The spring in the plane of now, so much shorter that turning, + twist u x, restores its length:
-  /// by 1/sqrt(1 + twist^2), as a series that is exact for the twist of 1e-3 of a fast particle.
+  /// The spring in the present plane, shortened by 1/sqrt(1 + twist^2), so that adding twist u x
+  /// spring turns it at its full length. The series is exact for a twist of 1e-3, of a fast
+  /// particle.
   template <class Real>
   EEPA_FUNCTION Vector3<Real> before_turning(const Vector3<Real> &spring, const ContactOf<Real> &c)
   {
@@ -117,9 +120,9 @@ namespace detail {
   }
 }    // namespace detail
 
-/// A spring after a step.
-/// \param spring  in the tangent plane of the step before
-/// \param velocity  in the tangent plane
+/// A spring after a step: carried over, plus the displacement of the step [length]
+/// \param spring  in the tangent plane of the step before [length]
+/// \param velocity  in the present tangent plane [length/time]
 template <class Real>
 EEPA_FUNCTION Vector3<Real> wind(const Vector3<Real> &spring, const Vector3<Real> &velocity,
                                  double time_step, const ContactOf<Real> &c)
@@ -129,7 +132,7 @@ EEPA_FUNCTION Vector3<Real> wind(const Vector3<Real> &spring, const Vector3<Real
   return turning + half_way + c.twist * c.normal.cross(turning);
 }
 
-/// What of it is the old spring.
+/// The part of wind() that is the spring of the step before, without the displacement [length]
 template <class Real>
 EEPA_FUNCTION Vector3<Real> carry_over(const Vector3<Real> &spring, const ContactOf<Real> &c)
 {

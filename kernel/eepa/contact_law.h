@@ -13,15 +13,15 @@
 
 namespace eepa {
 
-/// What the law answers. Forces and rolling torque act on i, their opposites on j; ContactLaw::wrench()
-/// makes of them what each partner gets.
+/// Result of the law. Forces and rolling torque act on i, their opposites on j;
+/// ContactLaw::wrench() turns them into the force and torques on each partner.
 template <class Real> struct ResponseOf {
   Real normal_force;                 ///< f_hys + f_nd along u [force]
   Real hysteretic_force;             ///< f_hys [force]
   Vector3<Real> tangential_force;    ///< on i [force]
   Vector3<Real> rolling_torque;      ///< on i [force length]; unset when the model is RollingNone
   Real twisting_torque;              ///< on i along u [force length]; unset with TwistingNone
-  Real friction_bound;               ///< what |f_t| can not exceed, >= 0 [force]
+  Real friction_bound;               ///< largest |f_t|, >= 0 [force]
   BranchOf<Real> branch;
   MaskOf<Real> sliding;
 };
@@ -61,7 +61,7 @@ EEPA_FUNCTION Dashpots<Real> dashpots(const Coefficients &c, const ScaleOf<Real>
   return result;
 }
 
-/// What |f_t| can not exceed: it has f_hys, never the dashpot. [force]
+/// Largest |f_t| [force]. It depends on f_hys, never on the normal dashpot.
 template <class Real>
 EEPA_FUNCTION Real friction_bound(const Coefficients &c, const NormalForceOf<Real> &normal)
 {
@@ -80,13 +80,13 @@ template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> s
   using Layout = HistoryLayout<RollingLaw::has_spring, TwistingLaw::has_spring>;
   static constexpr bool has_rolling = RollingLaw::model != RollingModel::none;
   static constexpr bool has_twisting = TwistingLaw::model != TwistingModel::none;
-  /// whether it gives a couple beside the torques of friction, from the relative angular velocity
+  /// whether the law gives a couple from the relative angular velocity, beside friction's torques
   static constexpr bool has_couple = has_rolling || has_twisting;
   /// whether a contact needs its effective radius
   static constexpr bool reads_effective_radius = has_couple || NormalLaw::reads_effective_radius;
   static constexpr int history_size = Layout::size;
 
-  /// How the coefficients of a contact relate to those at d_ref.
+  /// Relation of the coefficients of a contact to those at d_ref.
   template <class Real>
   EEPA_FUNCTION static ScaleOf<Real> scale_of(const Coefficients &c, const ContactOf<Real> &contact)
   {
@@ -100,8 +100,8 @@ template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> s
   ///
   /// \param c  coefficients of its pair of types
   /// \param contact  geometry and motion, overlap > 0
-  /// \param time_step  by which the springs are wound [time]; 0 in a set-up call, after which
-  ///        the caller must throw the returned history away
+  /// \param time_step  over which the springs are wound [time]; 0 in a set-up call, after which
+  ///        the caller must discard the returned history
   /// \param[in,out] history  the state before and after
   template <class Real>
   EEPA_FUNCTION static ResponseOf<Real> evaluate(const Coefficients &c,
@@ -163,7 +163,7 @@ template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> s
     return energy;
   }
 
-  /// What each partner gets.
+  /// Force and torques on each partner.
   template <class Real>
   EEPA_FUNCTION static Wrench<Real> wrench(const ResponseOf<Real> &response,
                                            const ContactOf<Real> &contact)

@@ -5,8 +5,8 @@
 #include "contact_law.h"
 #include "luding_law.h"
 
-// Host only: turns what a user chose at run time into a compile-time policy, once, outside of
-// every loop. The list of all laws that exist is here and nowhere else.
+// Host only: turns the user's choice at run time into a compile-time policy, once, outside of every
+// loop. The list of all laws is here and nowhere else.
 
 namespace eepa {
 
@@ -49,7 +49,7 @@ auto with_law(const LawSettings &settings, RollingModel rolling, TwistingModel t
   return detail::with_models<LinearLaw<GeneralExponent>>(rolling, twisting, function);
 }
 
-/// The same with the models of a pair of types.
+/// with_law() for the models that the parameters of a pair of types name.
 template <class Function>
 auto with_law(const LawSettings &settings, const Parameters &parameters, Function &&function)
 {

@@ -6,8 +6,8 @@
 
 namespace eepa {
 
-/// Where the energy of a contact went [force length]. No term ever decreases, but hysteresis of
-/// `plateau` with f0 != 0 (see PlateauLaw::opening_loss).
+/// Energy that contacts dissipated, by mechanism [force length]. No term ever decreases, except
+/// hysteresis of `plateau` with f0 != 0 (see PlateauLaw::opening_loss).
 struct Dissipation {
   double hysteresis = 0.0;
   double normal_dashpot = 0.0;
@@ -31,32 +31,22 @@ struct Dissipation {
   }
 };
 
-// Velocity Verlet turns the work (f_n-1 + f_n)/2 . v_n-1/2 dt into kinetic energy, and a force
-// call sees x_n and v_n-1/2. Springs are therefore booked by their state, which is that
-// trapezoid. The force of a dashpot in the step before, f' = min(B' v', L'), hangs on a velocity
-// that nobody remembers; its coefficient B' and the bound L' that cut it do follow from the
-// state. So what is booked is, with the present v in the place of v',
-//
-//   dt [ (f + f')/2 v + (f^2/B - f'^2/B')/4 ],   f' = min(B' v, L').
-//
-// The second part is a function of the state that is 0 before a contact and after it. The terms
-// in f' are greatest, and so flat, at f' = B' v: v in the place of v' changes them by at most
-// B' (v - v')^2/4 dt, which is of second order in dt. Neither is ever negative, but where a
-// slider lets go of a spring: see dashpot_now().
+// Velocity Verlet turns the trapezoid work (f_n-1 + f_n)/2 . v_n-1/2 dt into kinetic energy:
+// springs are booked by their state, dashpots by that work with the last force estimated from the
+// present velocity. Derivation and order of the error: tests/kernel/DISSIPATION.md.
 
 namespace detail {
-  /// What a step books for a dashpot's present force.
+  /// Power that a step books for the present force of a dashpot.
   /// \param force, speed  |f| and |v|
-  /// \param power  what f takes out: |f| |v|, but less where a slider has just let go of a spring
-  ///        and hands its force over; < 0 where that drives. The step after will take it for
-  ///        |f| |v|, so the difference is booked here.
+  /// \param power  -f.v: |f| |v|, or less where a slider has just let go of a spring, whose force
+  ///        is then in f; < 0 where that spring drives
   EEPA_FUNCTION double dashpot_now(double viscous, double force, double speed, double power)
   {
     if (!(viscous > 0.0)) return 0.0;
     return power + (0.25 * force / viscous - 0.5 * speed) * force;
   }
-  /// What it books for the force of the step before, which was at most `bound`.
-  /// \param booked  whether dashpot_now() has booked that one; a set-up's is not
+  /// Power that a step books for the dashpot's force in the step before, which was at most `bound`.
+  /// \param booked  whether dashpot_now() has booked that force; it does not book a set-up's
   EEPA_FUNCTION double dashpot_before(double viscous, double bound, double speed, bool booked)
   {
     if (!(viscous > 0.0)) return 0.0;
@@ -64,36 +54,36 @@ namespace detail {
     return (0.5 * speed - (booked ? 0.25 * force / viscous : 0.0)) * force;
   }
 
-  /// Loss of a slider over one step: the spring's trapezoid work less what it stores of it.
-  /// \param before, after  the spring at its begin, carried over, and at its end
-  /// \param trial  as wound, before the slider: exactly `after` where nothing slid
+  /// Loss of a slider over one step: the spring's trapezoid work less what the spring stores of it.
+  /// \param before, after  the spring at the beginning of the step, carried over, and at its end
+  /// \param trial  the spring as wound, before the slider: exactly `after` where nothing slid
   EEPA_FUNCTION double slip_loss(double stiffness, const Vec3 &before, const Vec3 &after,
                                  const Vec3 &trial)
   {
     return 0.5 * stiffness * (before + after).dot(trial - after);
   }
-  /// The same of a spring of one dimension.
+  /// The same for a spring of one dimension.
   EEPA_FUNCTION double slip_loss(double stiffness, double before, double after, double trial)
   {
     return 0.5 * stiffness * (before + after) * (trial - after);
   }
 
-  /// Loss of a spring that is let go in a step: what it stored and its trapezoid work. That takes
-  /// more back only of a spring as short as the step, which counts as nothing.
+  /// Loss of a spring that is let go in a step: what it stored and its trapezoid work. The sum is
+  /// negative only where the spring is shorter than the displacement, and counts as 0 there.
   EEPA_FUNCTION double release_loss(double stiffness, const Vec3 &spring, const Vec3 &displacement)
   {
     const double loss = 0.5 * stiffness * spring.dot(spring + displacement);
     return loss > 0.0 ? loss : 0.0;
   }
 
-  /// A spring that the slider left empty: its dashpot alone was at the bound. Otherwise the
-  /// spring may have held the dashpot back, and nothing cuts that.
+  /// The bound on a dashpot's force, by the spring beside it: only where the slider left that
+  /// spring empty was the dashpot cut at the bound.
   EEPA_FUNCTION double dashpot_bound(const Vec3 &spring, double bound)
   {
     return spring.squaredNorm() > 0.0 ? HUGE_VAL : bound;
   }
 
-  /// What the dashpots' forces of the step before do in this one, over dt.
+  /// Adds to `lost` what the dashpots' forces of the step before dissipate in this step.
   /// \param last  state after the step before
   template <class ContactLaw>
   EEPA_FUNCTION void book_step_before(const Coefficients &c, const Scale &scale,
@@ -144,8 +134,8 @@ namespace detail {
 /// Dissipation of a contact over the step that evaluate() has just made.
 /// \param before, after  its state before and after evaluate()
 /// \param first  whether the contact formed in this step
-/// \param booked  whether the step before was booked too: not where the ledger starts. A contact
-///        without state, but not the first time here, had a force in a set-up, which books nothing.
+/// \param booked  whether the step before was booked too; false where the ledger starts. A contact
+///        that is not new but has no state had its force in a set-up, which books nothing.
 template <class ContactLaw>
 EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Contact &contact,
                                               const Response &response, double time_step,
@@ -155,7 +145,7 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
   Dissipation lost;
   const Scale scale = ContactLaw::scale_of(c, contact);
   const double normal_velocity = dot(contact.velocity, contact.normal);
-  // a contact that starts with an overlap (a packing's first step) was not loaded up to it
+  // a contact that starts with an overlap (first step of a packing) was not loaded up to it
   double loaded = before.max_overlap;
   if (loaded == 0.0) {
     loaded = contact.overlap + normal_velocity * time_step;
@@ -183,7 +173,7 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
   lost.sliding = detail::slip_loss(
       stiffness, carry_over(before.tangential_spring, contact), after.tangential_spring,
       wind<double>(before.tangential_spring, velocity, time_step, contact));
-  // a spring that was let go and drives: its part of the slip
+  // negative where a spring was let go and drives: that is part of the slip
   (taken < 0.0 ? lost.sliding : lost.tangential_dashpot) += taken;
 
   if constexpr (ContactLaw::has_rolling) {
@@ -221,7 +211,7 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
 }
 
 /// Dissipation of a contact that has opened: what it still stored, and the last part of dashpots.
-/// \param contact  as it is now, overlap <= 0; > 0 where it was taken away, by a group for instance
+/// \param contact  at present, overlap <= 0; > 0 where it was taken away, by a group for instance
 /// \param last  its state after its last step
 /// \param booked  as in dissipation_of_step()
 template <class ContactLaw>
@@ -249,7 +239,7 @@ EEPA_FUNCTION Dissipation dissipation_of_opening(const Coefficients &c, const Co
     lost.rolling = detail::release_loss(scale.stiffness() * c.kr, last.rolling_spring,
                                         time_step * contact.effective_radius *
                                             ContactLaw::Rolling::velocity(contact));
-  // its arm has come to nothing: no force, but what was stored
+  // the arm is 0 at opening, so this spring did no work in the step
   if constexpr (ContactLaw::Twisting::has_spring)
     lost.twisting = 0.5 * scale.stiffness() * c.kt * last.twisting_spring * last.twisting_spring;
   detail::book_step_before<ContactLaw>(c, scale, contact, time_step, last,

@@ -11,8 +11,8 @@
 
 namespace eepa {
 
-/// Where each quantity of a contact's state lies in a driver's flat array of doubles.
-/// This list and HistoryLayout are the only places that know.
+/// Index of each quantity of a contact's state in a driver's flat array of doubles. Only this list
+/// and HistoryLayout define these indices.
 enum HistoryIndex : int {
   MAX_OVERLAP = 0,          ///< overlap where unloading meets loading [length], >= 0
   TANGENTIAL_SPRING = 1,    ///< 1..3: tangential spring of i against j [length]
@@ -20,15 +20,15 @@ enum HistoryIndex : int {
   ROLLING_SPRING = 4    ///< 4..6: rolling spring, with RollingModel::sds only [length]
 };
 
-/// What follows the quantities that every law has.
-/// \tparam Rolling, Twisting  whether the law has a spring of either
+/// Layout of the quantities that follow those of every law.
+/// \tparam Rolling, Twisting  whether the law has a spring for rolling, for twisting
 template <bool Rolling, bool Twisting> struct HistoryLayout {
   static constexpr bool rolling = Rolling, twisting = Twisting;
-  static constexpr int twisting_spring = N_ALWAYS + (Rolling ? 3 : 0);    ///< its place, [length]
+  static constexpr int twisting_spring = N_ALWAYS + (Rolling ? 3 : 0);    ///< its index; [length]
   static constexpr int size = twisting_spring + (Twisting ? 1 : 0);
 };
 
-/// Values of a contact, of models that a user chose.
+/// Number of values of a contact's state, for models chosen at run time.
 EEPA_FUNCTION int history_size(RollingModel rolling, TwistingModel twisting)
 {
   return N_ALWAYS + (rolling == RollingModel::sds ? 3 : 0) +
@@ -48,18 +48,18 @@ template <class Real> struct HistoryOf {
 using History = HistoryOf<double>;
 
 namespace detail {
-  /// A twist does not change its sign with i and j, and yet LAMMPS turns it: back again, where the
-  /// overlap stored with it has become negative.
+  /// LAMMPS changes the sign of every stored value when i and j change places, but a twist must
+  /// keep its own. The overlap stored beside it is negative exactly where LAMMPS has done so.
   template <class Real> EEPA_FUNCTION Real twist_of(const Real &stored, const Real &max_overlap)
   {
     return select(max_overlap < 0.0, -stored, stored);
   }
 }    // namespace detail
 
-// A driver's row is anything with row[k], k counted by HistoryIndex: a pointer to values that follow
-// each other, as LAMMPS has them, or one of these two, for drivers on a GPU.
+// A driver's row is anything with row[k], k a HistoryIndex: a pointer to consecutive values, as in
+// LAMMPS, or one of the following two, for drivers on a GPU.
 
-/// Values of a contact that lie `stride` apart, as where each quantity has an array of its own.
+/// Values of a contact that lie `stride` apart, as where each quantity has its own array.
 template <class T> struct StridedRow {
   T *first;
   std::ptrdiff_t stride;
@@ -72,7 +72,7 @@ struct alignas(32) Quad {
   double value[4];
 };
 
-/// Values of a contact in quads that lie `stride` quads apart: one quad where Layout::size <= 4, else two.
+/// Values of a contact in quads `stride` quads apart: one quad where Layout::size <= 4, else two.
 template <class T> struct QuadRow {    // T: Quad or const Quad
   T *first;
   std::ptrdiff_t stride;
@@ -81,7 +81,7 @@ template <class T> struct QuadRow {    // T: Quad or const Quad
 };
 
 namespace detail {
-  /// Values first .. first + count - 1 of a row, first a multiple of 4 and count at most 4.
+  /// Reads values first .. first + count - 1 of a row, first a multiple of 4 and count at most 4.
   template <int count, class Row> EEPA_FUNCTION Quad read_row(Row row, int first)
   {
     Quad quad{};
@@ -105,8 +105,8 @@ namespace detail {
 
 /// Reads a state from a driver's row.
 ///
-/// LAMMPS hands rows over with every sign turned when i and j change places: right for the springs
-/// that are vectors, and harmless for the overlap because its magnitude is read.
+/// LAMMPS changes all signs of a row when i and j change places. That is right for springs that are
+/// vectors, and harmless for the overlap, of which the magnitude is read.
 /// \tparam Layout  a HistoryLayout
 /// \param row  Layout::size doubles
 template <class Layout, class Row> EEPA_FUNCTION History load_history(Row row)

@@ -14,9 +14,9 @@
 #include <array>
 #include <cstddef>
 
-// Between a driver's rows, 3 doubles a particle, and vectors with a contact in each lane. Half of
-// what a contact costs is this turning of rows into columns and back; compilers do it a number at
-// a time, and a processor with AVX does two and four.
+// Converts a driver's rows, 3 doubles a particle, into vectors with a contact in each lane, and
+// back. This transposition is half of the cost of a contact. Compilers do it one number at a time;
+// with AVX it takes two or four at once.
 
 namespace eepa {
 
@@ -43,7 +43,7 @@ EEPA_FUNCTION Lanes gather_numbers(const LanePointers<const double> &at)
   return Lanes([&at](auto lane) EEPA_LAMBDA { return *at[lane]; });
 }
 
-/// The rows of 3 that the lanes point at.
+/// The rows of 3 numbers that the lanes point at.
 EEPA_FUNCTION Vector3<Lanes> gather_rows(const LanePointers<const double> &at)
 {
 #ifdef __AVX__
@@ -64,7 +64,7 @@ EEPA_FUNCTION Vector3<Lanes> gather_rows(const LanePointers<const double> &at)
                         Lanes([&at](auto lane) EEPA_LAMBDA { return at[lane][2]; }));
 }
 
-/// The rows of 4 that the lanes point at.
+/// The rows of 4 numbers that the lanes point at.
 EEPA_FUNCTION std::array<Lanes, 4> gather_rows_of_4(const LanePointers<double> &at)
 {
 #ifdef __AVX__
@@ -99,7 +99,7 @@ EEPA_FUNCTION void scatter_rows_of_4(const std::array<Lanes, 4> &column,
     for (int k = 0; k < 4; k++) at[lane][k] = column[k][lane];
 }
 
-/// A vector for each lane, turned into rows of 3.
+/// The vector of each lane as a row of 3 numbers.
 class LaneRows {
  public:
   EEPA_FUNCTION explicit LaneRows(const Vector3<Lanes> &vector)

@@ -13,7 +13,7 @@
 #endif
 
 #ifdef __cpp_lib_experimental_parallel_simd
-// where() of GCC 12's library, compiled by clang for AVX-512, takes the wrong one of two lanes.
+// where() of GCC 12's library, compiled by clang for AVX-512, selects the wrong one of two lanes.
 #if !(defined(__clang__) && defined(__AVX512F__))
 #define EEPA_HAS_LANES 1
 #endif
@@ -24,8 +24,8 @@
 #include <Eigen/Core>
 
 namespace eepa {
-/// As many doubles as a register holds, 4 at most: 2 with SSE2, 4 with AVX, AVX2 and AVX-512. Of
-/// 8 GCC 12's library can not take square roots without a warning.
+/// As many doubles as a register holds, 4 at most: 2 with SSE2, 4 with AVX, AVX2 and AVX-512. For
+/// 8, the square root of GCC 12's library does not compile without a warning.
 using Lanes = std::experimental::simd<
     double, std::experimental::simd_abi::deduce_t<
                 double, (std::experimental::native_simd<double>::size() < 4
@@ -34,7 +34,7 @@ using Lanes = std::experimental::simd<
 }    // namespace eepa
 
 namespace Eigen {
-/// Lets Lanes be the numbers of an Eigen::Matrix.
+/// Lets Lanes be the scalar type of an Eigen::Matrix.
 template <> struct NumTraits<eepa::Lanes> {
   using Real = eepa::Lanes;
   using NonInteger = eepa::Lanes;

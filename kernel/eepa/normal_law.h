@@ -24,11 +24,11 @@ template <class Real> EEPA_FUNCTION BranchOf<Real> branch_of(Branch branch)
     return branch;
 }
 
-/// What a normal law says of one overlap.
+/// Result of a normal law for one overlap.
 template <class Real> struct NormalForceOf {
   Real force;             ///< f_hys, positive repels [force]
-  Real coulomb_force;     ///< what mu multiplies in the friction bound [force]
-  Real coulomb_offset;    ///< what is added to the bound unmultiplied [force]
+  Real coulomb_force;     ///< the part of the friction bound that mu multiplies [force]
+  Real coulomb_offset;    ///< the part of the friction bound that mu does not multiply [force]
   Real max_overlap;       ///< the delta_max to remember [length]
   BranchOf<Real> branch;
 };
@@ -77,7 +77,7 @@ struct GeneralExponent {
   }
 };
 
-/// The article's law, to the letter (sections 2 and 4), exponent 1.
+/// The law exactly as printed in the article (sections 2 and 4), exponent 1.
 ///
 /// With delta_p = (k1/k2) delta_max:
 ///   f_hys = f0 + k1 delta            if k2 (delta - delta_p) >= k1 delta
@@ -126,7 +126,7 @@ struct PlateauLaw {
 
   /// Recoverable energy: the work of f_hys from the stress-free overlap delta_p to delta with
   /// delta_max held, plus that of f0 from 0. At fixed delta_max the law is path-independent,
-  /// so this closes the energy balance; what the plateau holds at delta = 0 is lost there.
+  /// so this closes the energy balance. Energy that the plateau holds at delta = 0 is lost there.
   /// \return [force length]
   EEPA_FUNCTION static double elastic_energy(const Coefficients &c, const Scale &scale,
                                              double overlap, double max_overlap)
@@ -134,7 +134,7 @@ struct PlateauLaw {
     const double s = scale.stiffness();
     const double peak = overlap >= max_overlap ? overlap : max_overlap;
     const double plastic = c.plastic_fraction * peak;
-    // where the plateau begins, and where unloading parts from the loading line
+    // overlaps where the plateau begins, and where unloading leaves the loading line
     const double plateau_stretch = c.k_adh * plastic / c.k2;
     const double plateau_overlap = plastic - plateau_stretch;
     const double parting_overlap = c.k1 / (c.k2 - c.k1) * peak;
@@ -151,15 +151,15 @@ struct PlateauLaw {
   }
 
   /// Energy lost to hysteresis while the remembered overlap went from `before` to `after`.
-  /// Only loading loses; the plateau gives back what it took until the contact opens.
+  /// Only loading dissipates; the plateau's work is recoverable until the contact opens.
   EEPA_FUNCTION static double loss(const Coefficients &c, const Scale &scale, double before,
                                    double after)
   {
     return scale.stiffness() * c.loading_loss * (after - before) * (after + before);
   }
 
-  /// Energy lost when a contact opens: what it holds at delta = 0. Negative, that is created,
-  /// where f0 != 0 outweighs the plateau: by up to |f0| times the overlap at which it begins.
+  /// Energy lost when a contact opens: what it holds at delta = 0. Negative (energy is created)
+  /// where f0 outweighs the plateau, by up to |f0| times the overlap at which the plateau begins.
   EEPA_FUNCTION static double opening_loss(const Coefficients &c, const Scale &scale,
                                            double max_overlap)
   {
@@ -175,8 +175,8 @@ struct PlateauLaw {
 ///           f0 - k_adh delta^n              if k2 (delta^n - delta_p^n) <= -k_adh delta^n
 ///           f0 + k2 (delta^n - delta_p^n)   otherwise
 ///   |f_t| <= mu (f_hys + k_adh delta^n - f0)
-/// The adhesive branch lowers delta_max so that reloading leaves it on a k2 line through the
-/// present point. Continuous in delta > 0.
+/// The adhesive branch lowers delta_max, so that reloading leaves the branch on a k2 line through
+/// the present point. The force is continuous in delta > 0.
 /// \tparam ExponentPolicy  UnitExponent or GeneralExponent
 template <class ExponentPolicy> struct LinearLaw {
   static constexpr Law law = Law::linear;
@@ -197,7 +197,7 @@ template <class ExponentPolicy> struct LinearLaw {
     const Real pull = s * c.k_adh * power;
     const Real plastic_power = c.plastic_fraction * Exponent::power(max_overlap, c, scale);
     const Real unloading = s * c.k2 * (power - plastic_power);
-    // a contact at rest on the adhesive branch stays there, whatever rounding says
+    // the margin keeps a contact at rest on the adhesive branch there, in spite of rounding
     const Real rounding = 1e-14 * s * (c.k2 + c.k_adh) * power;
     const auto loads = virgin || unloading >= loading;
     const auto adheres = !loads && unloading <= rounding - pull;
@@ -256,8 +256,8 @@ template <class ExponentPolicy> struct LinearLaw {
     return lost > 0.0 ? lost : 0.0;    // rounding must not give energy back
   }
 
-  /// Energy lost when a contact opens: that of the adhesive branch from where unloading meets
-  /// it down to delta = 0. Nothing stays stored there.
+  /// Energy lost when a contact opens: the loss along the adhesive branch from where unloading
+  /// meets it down to delta = 0, where nothing is stored any more.
   EEPA_FUNCTION static double opening_loss(const Coefficients &c, const Scale &scale,
                                            double max_overlap)
   {

@@ -6,7 +6,7 @@
 
 namespace eepa {
 
-/// The normal law; never a silent default, the user names one.
+/// The normal law. There is no default: the user names one.
 enum class Law { plateau, linear, luding };
 
 /// How a contact resists rolling.
@@ -17,14 +17,14 @@ enum class TwistingModel { none, marshall };
 
 /// What bounds the tangential force.
 enum class FrictionBound {
-  adhesive,    ///< that of the law, where adhesion presses as well
+  adhesive,    ///< the law's own bound, to which adhesion adds
   contact      ///< mu max(f_hys, 0)
 };
 
 /// How the dashpots are given.
 enum class Damping { restitution, viscous };
 
-/// What holds for all contacts of a pair style or a wall.
+/// Settings of all contacts of a pair style or a wall.
 struct LawSettings {
   Law law = Law::linear;
   double exponent = 1.0;              ///< n of the linear law, [1, 2]; 1 for the others
@@ -33,7 +33,7 @@ struct LawSettings {
   bool limit_damping = false;         ///< the normal dashpot adds no tension
 };
 
-/// What a user gives for one pair of types, as typed, at particles of diameter d_ref.
+/// Parameters of one pair of types as the user typed them, for particles of diameter d_ref.
 ///
 /// Dimensions are for exponent n; [force/length] where n = 1.
 struct Parameters {

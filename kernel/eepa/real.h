@@ -3,10 +3,10 @@
 #define EEPA_REAL_H
 
 // `Real` in this kernel is double, one contact at a time, or Lanes, as many contacts at once as a
-// register of the processor holds. A law is written once for both: what depends on a comparison is
-// chosen with select(), so that lanes which decide differently keep together, and what few
-// contacts need is skipped with any(). A lane makes the operations that a double would make, in
-// the same order, and so the same bits.
+// register of the processor holds. A law is written once for both. Results that depend on a
+// comparison are chosen with select(), so that lanes may decide differently, and work that few
+// contacts need is skipped with any(). A lane performs the operations of a double in the same
+// order, so it gets the same bits.
 
 #include "lanes.h"
 #include "macros.h"
@@ -75,8 +75,8 @@ template <class Real> EEPA_FUNCTION Real pow(const Real &base, double exponent)
 /// What a comparison of two Real gives: bool, or one for each lane.
 template <class Real> using MaskOf = decltype(std::declval<Real>() < std::declval<Real>());
 
-// Qualified where they are called, eepa::min(a, b): other libraries' functions of these names would
-// be found by the kind of their arguments.
+// Calls are qualified, eepa::min(a, b): argument-dependent lookup would also find functions of
+// these names in other libraries.
 template <class Real> EEPA_FUNCTION Real min(const Real &a, const Real &b)
 {
   return select(b < a, b, a);

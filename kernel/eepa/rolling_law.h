@@ -11,8 +11,8 @@ namespace eepa {
 
 // Rolling models are compile-time policies with one function,
 //   torque(coefficients, scale, contact, |f_hys|, sqrt(m* k), time step, spring)
-// that returns the torque on i; j gets the opposite one. `spring` is read and written by Sds
-// only. All act on the part of omega_i - omega_j in the tangent plane; twisting_law.h has the other.
+// that returns the torque on i; j gets the opposite torque. Only Sds reads and writes `spring`. All
+// act on the part of omega_i - omega_j in the tangent plane; twisting_law.h has the part along u.
 
 /// The part of omega_i - omega_j in the tangent plane [1/time]
 template <class Real> EEPA_FUNCTION Vector3<Real> rolling_velocity(const ContactOf<Real> &contact)
@@ -29,15 +29,15 @@ struct RollingNone {
 /// Directional constant torque, -mu_r |f_hys| R* along the relative rolling velocity
 /// (article, section 5; Ai et al., Powder Technology 206 (2011) 269, model A).
 ///
-/// At slow rolling the torque is capped by a dashpot, c = 2/5 R*^2 sqrt(m* k1), which no
-/// particle with a dozen contacts overshoots below the time-step bound: the torque can
-/// neither drive nor chatter a particle at rest. It is a function of the state alone, so
+/// At slow rolling a dashpot, c = 2/5 R*^2 sqrt(m* k1), caps the torque. Below the time-step bound
+/// this dashpot does not overshoot even in a particle with a dozen contacts, so the torque neither
+/// drives a particle at rest nor makes it chatter. The torque is a function of the state alone, so
 /// results converge with the time step.
 struct RollingConstant {
   static constexpr RollingModel model = RollingModel::constant;
   static constexpr bool has_spring = false;
 
-  /// No spring is wound by it: the plane of now does.
+  /// The present plane is accurate enough here, because this velocity winds no spring.
   template <class Real> EEPA_FUNCTION static Vector3<Real> velocity(const ContactOf<Real> &contact)
   {
     return rolling_velocity(contact);
@@ -81,14 +81,14 @@ struct RollingConstant {
 /// sds` of LAMMPS's pair_style granular).
 ///
 /// The spring is kept along the spin, theta += R* w dt with w the tangent-plane part of
-/// omega_i - omega_j: that changes its sign when i and j change places, as LAMMPS has it of all
+/// omega_i - omega_j. It changes its sign when i and j change places, as LAMMPS assumes of all
 /// history; the customary rolling displacement along w x u does not.
 /// Pseudo-force g = -kr theta - gr R* w, bounded by mu_r |f_hys|; torque R* g.
 struct RollingSds {
   static constexpr RollingModel model = RollingModel::sds;
   static constexpr bool has_spring = true;
 
-  /// With the normal of the middle of the step, as the surface velocity: see seen_at_mid_step().
+  /// Built with the normal of the middle of the step, see seen_at_mid_step().
   template <class Real> EEPA_FUNCTION static Vector3<Real> velocity(const ContactOf<Real> &contact)
   {
     return rolling_velocity(contact) + dot(contact.angular_velocity, contact.normal) * contact.turn;
@@ -99,7 +99,7 @@ struct RollingSds {
   {
     return scale.force() * c.rolling_viscous;
   }
-  /// What |g| can not exceed [force]
+  /// Largest |g| [force]
   template <class Real>
   EEPA_FUNCTION static Real bound(const Coefficients &c, const Real &hysteretic)
   {

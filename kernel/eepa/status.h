@@ -6,9 +6,10 @@
 
 namespace eepa {
 
-/// What a driver keeps beside each neighbour as one integer: 0 where there is no contact, else its
-/// branch and whether it slides, as the last force call found them. LAMMPS's neighbour-history fix
-/// only asks whether it is 0, and sets `touching` when it carries a contact over to a new list.
+/// Status of a contact, which a driver keeps as one integer beside each neighbour: 0 where there is
+/// no contact, else its branch and whether it slides, as the last force call found them. LAMMPS's
+/// neighbour-history fix only tests it for 0, and sets `touching` when it carries a contact over to
+/// a new list.
 namespace ContactStatus {
   constexpr int none = 0;
   constexpr int touching = 1;

@@ -6,18 +6,18 @@
 
 namespace eepa {
 
-/// What a spring-dashpot-slider gives.
+/// Result of a spring-dashpot-slider.
 template <class Real> struct SliderForce {
-  Vector3<Real> force;     ///< on i, spring and dashpot together, at most `bound` long [force]
+  Vector3<Real> force;     ///< on i, of spring and dashpot together, of length <= bound [force]
   MaskOf<Real> sliding;    ///< whether the bound was reached
 };
 
-/// Spring, dashpot and slider in the tangent plane: friction, and rolling sds alike.
+/// Spring, dashpot and slider in the tangent plane, for friction and for rolling sds.
 ///
 /// f = -k xi - B v. Where |f| exceeds the bound, f is scaled back onto it and xi is reset so
 /// that -k xi - B v is f again: the next step starts on the bound (contract, section 1;
-/// Luding 2008, section 2.3). Where the dashpot alone exceeds the bound, no spring is left: one
-/// that held the dashpot back would be wound up by nobody and later drive the contact.
+/// Luding 2008, section 2.3). Where the dashpot alone exceeds the bound, xi is reset to 0: a spring
+/// that balanced the dashpot would hold energy that no motion put in, and later drive the contact.
 /// \param stiffness, inverse_stiffness  k >= 0 and 1/k (0 where k = 0)
 /// \param viscous  B >= 0
 /// \param bound  >= 0 [force]
@@ -46,7 +46,7 @@ EEPA_FUNCTION SliderForce<Real> slider_force(const Real &stiffness, const Real &
   return result;
 }
 
-/// Likewise, for any expressions that are doubles and a Vec3.
+/// Overload for one contact, so that Eigen expressions can be passed as `velocity`.
 EEPA_FUNCTION SliderForce<double> slider_force(double stiffness, double inverse_stiffness,
                                                double viscous, double bound, const Vec3 &velocity,
                                                Vec3 &spring)

@@ -8,17 +8,17 @@
 
 namespace eepa {
 
-/// Overlap, as a fraction of the contact's size, at which the tangent stiffness of an exponent
-/// n != 1 is taken for the time-step bound: it grows with overlap, and a fraction of 5% is the
-/// most that a sound simulation of stiff particles shows.
+/// Overlap over the contact's size at which the time-step bound takes the tangent stiffness of an
+/// exponent n != 1. That stiffness grows with overlap, and 5% is the largest overlap of a sound
+/// simulation of stiff particles.
 constexpr double time_step_overlap_fraction = 0.05;
 
 /// Largest stiffness of a contact of size d, over its branches and directions [force/length].
 ///
-/// Springs that turn a particle too are worth more than those that only push it: for a solid
-/// sphere the tangential one counts 7/2 fold, so that the default of 2/7 k1 is worth k1, and the
-/// rolling one 5/2 fold. The spring of twisting turns it by 5/4 delta/R of the tangential one, which
-/// is never the largest while the overlap is less than a radius.
+/// Springs that also turn a particle count more than those that only move it. For a solid sphere
+/// the tangential stiffness counts 7/2 times, so that the default of 2/7 k1 counts as k1, and the
+/// rolling stiffness 5/2 times. The twisting spring counts 5/4 delta/R times the tangential
+/// stiffness, which is never the largest while the overlap is less than a radius.
 /// \param c  coefficients of its pair of types
 /// \param size  d, as in Contact [length]
 EEPA_FUNCTION double largest_stiffness(const Coefficients &c, double size)

@@ -7,11 +7,11 @@
 
 namespace eepa {
 
-// Twisting models are compile-time policies, as rolling models are: what resists the part of
+// Twisting models are compile-time policies, as rolling models are. They resist the part of
 // omega_i - omega_j along the normal.
 
-/// (omega_i - omega_j).u, of which the sign is the same when i and j change places, with the u of
-/// the middle of the step as all velocities [1/time]
+/// (omega_i - omega_j).u with the u of the middle of the step, the time of the velocities [1/time].
+/// Its sign stays the same when i and j change places.
 template <class Real> EEPA_FUNCTION Real twisting_velocity(const ContactOf<Real> &contact)
 {
   return dot<Real>(contact.angular_velocity, contact.normal - contact.turn);
@@ -29,10 +29,10 @@ struct TwistingNone {
 /// radius a = sqrt(R* delta), give k_t a^2/2 and B_t a^2/2, and friction on it 2/3 a times the
 /// bound.
 ///
-/// The spring is counted as the way zeta of an arm l = a/sqrt(2): zeta += l w dt,
-/// g = -k_t zeta - B_t l w, torque l g. Where a does not change that is Marshall's; where it does,
-/// the spring's energy k_t zeta^2/2 is not changed by it, while a spring of k_t a^2/2 on the angle
-/// would be given energy by whatever presses the contact together.
+/// The spring is the displacement zeta at the end of an arm l = a/sqrt(2): zeta += l w dt,
+/// g = -k_t zeta - B_t l w, torque l g. For constant a this is Marshall's model. A change of a does
+/// not change the spring's energy k_t zeta^2/2, while it would change that of a spring k_t a^2/2 on
+/// the angle: pressing the contact together would put energy into it.
 struct TwistingMarshall {
   static constexpr TwistingModel model = TwistingModel::marshall;
   static constexpr bool has_spring = true;
@@ -45,14 +45,14 @@ struct TwistingMarshall {
     using std::sqrt;
     return sqrt(0.5 * effective_radius * eepa::max<Real>(overlap, 0.0));
   }
-  /// What |g| can not exceed: 2/3 a over the arm, times the friction bound [force]
+  /// Largest |g|: the friction bound times 2/3 a over the arm [force]
   template <class Real>
   EEPA_FUNCTION static Real bound(const Coefficients &c, const Real &friction_bound)
   {
     return c.twisting_share * friction_bound;
   }
 
-  /// Torque on i along u; j gets the opposite one.
+  /// Torque on i along u; j gets the opposite torque.
   /// \param stiffness, inverse_stiffness  k_t of the contact and 1/k_t (0 where k_t = 0)
   /// \param viscous  B_t of the contact
   /// \param[in,out] spring  zeta [length]
@@ -67,7 +67,7 @@ struct TwistingMarshall {
     const Real velocity = lever * twisting_velocity(contact);
     spring += Real(time_step) * velocity;
     const Real limit = bound(c, friction_bound);
-    // as slider_force(), of one dimension
+    // slider_force() in one dimension
     const Real dashpot = -viscous * velocity;
     Real force = dashpot - stiffness * spring;
     const auto sliding = abs(force) > limit;
