@@ -11,14 +11,14 @@
 
 namespace LAMMPS_NS {
 
-/// What the contacts of each particle dissipated in one force call, ghosts included until their
-/// owners have it. Kept only while a compute gran/eepa/energy/atom exists.
+/// Energy that the contacts of each particle dissipated in one force call; that of ghosts is then
+/// sent to their owners. Kept only while a compute gran/eepa/energy/atom exists.
 class AtomLosses {
  public:
   static constexpr int kinds = 6;
   using Kinds = std::array<double, kinds>;
 
-  /// In the order of the compute's columns.
+  /// Losses in the order of the compute's columns.
   static Kinds by_kind(const eepa::Dissipation &lost)
   {
     return {lost.hysteresis, lost.normal_dashpot, lost.tangential_dashpot,

@@ -12,7 +12,7 @@ ComputeStyle(gran/eepa/contacts,ComputeGranEepaContacts);
 
 namespace LAMMPS_NS {
 
-/// Counts the contacts of pair_style gran/eepa by what the last force call found them to do.
+/// Counts the contacts of pair_style gran/eepa by their status in the last force call.
 class ComputeGranEepaContacts : public Compute {
  public:
   ComputeGranEepaContacts(class LAMMPS *, int, char **);

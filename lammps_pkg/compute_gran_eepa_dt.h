@@ -16,7 +16,7 @@ ComputeStyle(gran/eepa/dt,ComputeGranEepaDt);
 
 namespace LAMMPS_NS {
 
-/// The largest stable time step over all contacts of gran/eepa, walls included.
+/// Largest time step that is stable for all contacts of gran/eepa, walls included.
 class ComputeGranEepaDt : public Compute {
  public:
   ComputeGranEepaDt(class LAMMPS *, int, char **);
@@ -25,7 +25,7 @@ class ComputeGranEepaDt : public Compute {
 
  private:
   std::vector<AnnouncedParticles> announced;
-  bool warned = false;    // that nothing is there yet
+  bool warned = false;    // that there are no particles yet
 
   void parse_particles(int narg, char **arg, int iarg);
 };

@@ -12,8 +12,8 @@ ComputeStyle(gran/eepa/energy,ComputeGranEepaEnergy);
 
 namespace LAMMPS_NS {
 
-/// The energy ledger of all contacts of gran/eepa, walls included. That it exists makes the
-/// pair style and the walls keep theirs; without it they spend nothing on it.
+/// Energy ledger of all contacts of gran/eepa, walls included. Pair style and walls keep their
+/// ledgers only while this compute exists; without it there is no cost.
 class ComputeGranEepaEnergy : public Compute {
  public:
   ComputeGranEepaEnergy(class LAMMPS *, int, char **);
@@ -23,7 +23,7 @@ class ComputeGranEepaEnergy : public Compute {
 
  private:
   enum {
-    ELASTIC_NORMAL,    ///< stored now
+    ELASTIC_NORMAL,    ///< stored at present
     ELASTIC_TANGENTIAL,
     ELASTIC_ROLLING,
     DISSIPATED_HYSTERESIS,    ///< since the first run with this compute

@@ -25,7 +25,7 @@ ComputeGranEepaEnergyAtom::ComputeGranEepaEnergyAtom(LAMMPS *lmp, int narg, char
   peratom_flag = 1;
   size_peratom_cols = AtomLosses::kinds;
   create_attribute = 1;
-  // for all particles, because they may come into the group later
+  // for all particles, because they may join the group later
   store_id = std::string(id) + "_COMPUTE_STORE";
   store = dynamic_cast<FixStoreAtom *>(
       modify->add_fix(fmt::format("{} all STORE/ATOM {} 0 0 0", store_id, AtomLosses::kinds)));

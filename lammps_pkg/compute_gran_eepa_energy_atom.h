@@ -17,9 +17,10 @@ ComputeStyle(gran/eepa/energy/atom,ComputeGranEepaEnergyAtom);
 
 namespace LAMMPS_NS {
 
-/// What the contacts of each particle have dissipated since the first run with this compute, by
-/// kind: half of a contact between particles, all of one with a wall. Pair style and walls hand in
-/// what each step adds; the sums go with the particles in LAMMPS's fix STORE/ATOM.
+/// Energy that the contacts of each particle have dissipated since the first run with this compute,
+/// by kind: half of the loss of a contact between particles, the whole of one with a wall. Pair
+/// style and walls add the losses of each step; LAMMPS's fix STORE/ATOM moves the sums with the
+/// particles.
 class ComputeGranEepaEnergyAtom : public Compute {
  public:
   ComputeGranEepaEnergyAtom(class LAMMPS *, int, char **);
@@ -29,10 +30,10 @@ class ComputeGranEepaEnergyAtom : public Compute {
   void set_arrays(int) override;
   double memory_usage() override;
 
-  /// Adds to the sums of one of this rank's particles.
+  /// Adds losses to the sums of one of this rank's particles.
   void add(int atom, const double *losses);
 
-  /// All that there are.
+  /// All computes of this style.
   static std::vector<ComputeGranEepaEnergyAtom *> find(class Modify *);
 
  private:

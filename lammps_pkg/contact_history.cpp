@@ -18,10 +18,10 @@
 using namespace LAMMPS_NS;
 
 namespace {
-/// The name of LAMMPS's own fix: restart files say the same, whichever wrote them.
+/// The name of LAMMPS's own fix, so that restart files do not depend on which fix wrote them.
 constexpr const char *fix_style = "NEIGH_HISTORY";
 
-/// Has LAMMPS make its fix NEIGH_HISTORY with another constructor as long as it lives.
+/// Makes LAMMPS use another constructor for fix NEIGH_HISTORY while this object lives.
 class OtherCreator {
  public:
   OtherCreator(Modify *modify, Modify::FixCreator creator) :
@@ -40,7 +40,7 @@ class OtherCreator {
 }    // namespace
 
 namespace {
-/// Gives a variable another value as long as it lives.
+/// Gives a variable another value while this object lives.
 class Meanwhile {
  public:
   Meanwhile(int &of, int value) : variable(of), before(of) { variable = value; }
@@ -58,7 +58,7 @@ ContactHistory::ContactHistory(LAMMPS *lmp, int narg, char **arg) :
     FixNeighHistory(lmp, narg, arg), owner(atom->nmax, 0), place_in_list(atom->nmax, -1)
 {
   std::copy_n(atom->tag, atom->nlocal, owner.begin());
-  comm_border = 1;    // whether a ghost is a new particle
+  comm_border = 1;    // tells whether a ghost is a new particle
   atom->add_callback(Atom::BORDER);
 }
 
@@ -120,7 +120,7 @@ void ContactHistory::end_interrupted_run()
 
 void ContactHistory::post_run()
 {
-  // after `run 0 pre no` it may be: nothing was computed, and the partners are as they were
+  // after `run 0 pre no` the list may be old: nothing was computed, and the partners are valid
   if (!list_is_old) FixNeighHistory::post_run();
   partners_are_newest = true;
 }
@@ -131,11 +131,11 @@ void ContactHistory::init()
     keep_partners_in_new_pages();
   else
     FixNeighHistory::init();
-  // whoever calls an init may go on to move particles to other processors, as write_restart does
+  // the caller of an init may move particles to other processors next, as write_restart does
   list_is_old = true;
 }
 
-/// After `neigh_modify one` or `page`, of which LAMMPS's fix says that they can lose history.
+/// Keeps histories across `neigh_modify one` and `page`, where LAMMPS's fix can lose them.
 void ContactHistory::keep_partners_in_new_pages()
 {
   std::vector<tagint> ids;
@@ -175,7 +175,7 @@ bool ContactHistory::ids_are_kept() const
 }
 
 namespace {
-/// Gives LAMMPS other IDs as long as it lives.
+/// Gives LAMMPS other atom IDs while this object lives.
 class OtherIds {
  public:
   OtherIds(Atom *atom, tagint *ids) : tag(atom->tag), lammps_own(atom->tag) { tag = ids; }
@@ -192,8 +192,8 @@ class OtherIds {
 void ContactHistory::pre_exchange()
 {
   {
-    // The neighbour list knows particles by their places. A fix before this one may have deleted
-    // some, whose places others took, and inserted others over the IDs of ghosts.
+    // The neighbour list holds local indices. A fix that ran before this one may have deleted
+    // particles, whose indices others took, and inserted new ones over the IDs of ghosts.
     const OtherIds of_list(atom, list_ids.data());
     FixNeighHistory::pre_exchange();
   }
@@ -203,8 +203,8 @@ void ContactHistory::pre_exchange()
     if (place_in_list[i] >= 0) owner[i] = atom->tag[i];
 }
 
-/// Gives the lists of partners, which stand where particles were when the neighbour list was made,
-/// to where these are now.
+/// Moves the lists of partners from the indices that their particles had when the neighbour list
+/// was made to the present ones.
 void ContactHistory::follow_particles()
 {
   const int n = atom->nlocal;
@@ -238,9 +238,9 @@ void ContactHistory::post_neighbor()
   if (radii_change) remember_sizes();
 }
 
-/// A new particle may have the ID of one that is gone: it has no history with anybody. A list of
-/// partners finds particles that are here or ghosts here, and ghosts brought word of whether they
-/// are new.
+/// Removes new particles from the lists of partners. A new particle may have the ID of a deleted
+/// one, but has no history. All partners of a list are particles or ghosts of this rank, and ghosts
+/// carry whether they are new.
 void ContactHistory::forget_partners_with_new_ids()
 {
   new_here.clear();
@@ -290,9 +290,9 @@ void ContactHistory::remember_sizes()
   for (int i = 0; i < atom->nlocal; i++) std::copy_n(atom->x[i], 3, listed_position[i].begin());
 }
 
-/// LAMMPS makes a new list when a particle has moved by half the skin; what it has grown counts
-/// like that. Positions are those of this step, radii those of the step before: they will grow
-/// once more before the forces, as much as they did in a step on average.
+/// LAMMPS rebuilds the list when a particle has moved by half the skin; growth counts like motion.
+/// Positions are those of this step, but radii those of the step before: they grow once more before
+/// the forces, which is estimated by the mean growth of a step.
 void ContactHistory::post_integrate()
 {
   if (!radii_change) return;
@@ -318,7 +318,7 @@ void ContactHistory::post_integrate()
   if (2.0 * all[0] > neighbor->skin - box_moved()) next_reneighbor = update->ntimestep;
 }
 
-/// What LAMMPS takes off the skin where the box changes: the ways of two opposite corners.
+/// What LAMMPS subtracts from the skin where the box changes: the travel of two opposite corners.
 double ContactHistory::box_moved() const
 {
   double lower = 0.0, upper = 0.0;
@@ -331,7 +331,8 @@ double ContactHistory::box_moved() const
 
 /* ---------------------------------------------------------------------- going with a particle */
 
-/// Numbers that a particle takes along, at most; LAMMPS's fix forgets particles that came to it.
+/// Reserves the most numbers that a particle takes along. LAMMPS's fix does not count particles
+/// that came from other processors.
 void ContactHistory::reserve_exchange()
 {
   maxexchange = (dnum + 1) * maxpartner + 2;

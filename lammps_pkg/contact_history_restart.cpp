@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What ContactHistory writes to restart files, and what it asks of them before it takes them up.
+// How ContactHistory writes restart files, and checks them before it takes them up.
 
 #include "contact_history.h"
 
@@ -18,7 +18,7 @@
 using namespace LAMMPS_NS;
 
 namespace {
-/// The law that made the histories, as stored once for all particles.
+/// Numbers of the law that made the histories, stored once for all particles.
 enum LawNumbers { LAW, EXPONENT, N_LAW_NUMBERS };
 
 const char *name_of(eepa::Law law)
@@ -26,8 +26,8 @@ const char *name_of(eepa::Law law)
   return law == eepa::Law::plateau ? "plateau" : "linear";
 }
 
-/// An entry of a restart file for one particle, as LAMMPS's fix and this one write it: its size,
-/// the number of partners, of each one its ID and the values, and the tail.
+/// Entry of a restart file for one particle, as LAMMPS's fix and this one write it: its size, the
+/// number of partners, ID and values of each partner, and the tail.
 class Entry {
  public:
   static constexpr int head_size = 2;
@@ -133,7 +133,7 @@ void ContactHistory::unpack_restart(int i, int nth)
   const Entry entry(atom->extra[i], atom->nextra_store, nth);
   const bool whole = entry.size() >= Entry::head_size + TAIL_SIZE;
   const double *tail = whole ? entry.tail(TAIL_SIZE) : nullptr;
-  // first of all how many values a contact has: they are read by it
+  // the number of values a contact comes first, because reading depends on it
   const double n = whole ? entry.partners() : -1.0;
   const double values = whole ? tail[TAIL_VALUES] : 0.0;
   if (!(n >= 0.0) || !(values >= 1.0) ||
@@ -181,9 +181,9 @@ std::string ContactHistory::what_does_not_fit() const
   return "";
 }
 
-/// Contacts touch, so that those of a restart file find their particles among the neighbours of
-/// the first list, unless the histories are those of another sub-style of hybrid. Collective.
-/// \param stored  histories that this rank's particles brought
+/// Warns of histories of a restart file that have no pair in the first neighbour list. Contacts
+/// touch, so that each has one, unless it belongs to another sub-style of hybrid. Collective.
+/// \param stored  number of histories of this rank's particles
 void ContactHistory::warn_of_lost_histories(bigint stored)
 {
   just_restarted = false;

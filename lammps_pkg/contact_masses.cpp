@@ -23,7 +23,7 @@ void ContactMasses::init(const char *command)
   freeze_groupbit_ = freezes.empty() ? 0 : freezes.front()->groupbit;
 
   fixes_rigid_.clear();
-  body_mass_.clear();    // atoms may have come, gone and changed places since the last run
+  body_mass_.clear();    // local indices of atoms may have changed since the last run
   body_.clear();
   for (auto *fix : modify->get_fix_list()) {
     if (!fix->rigid_flag) continue;
@@ -49,10 +49,10 @@ void ContactMasses::collect_bodies_of(Fix *fix, double which)
   const auto *body = static_cast<int *>(fix->extract("body", dim));
   const auto *total = static_cast<double *>(fix->extract("masstotal", dim));
   if (!body || !total) return;    // a rank without bodies
-  // fix rigid/small counts bodies on each processor anew; its first number for another processor
-  // is the ID of the particle that stands for the body
+  // fix rigid/small numbers bodies on each processor separately; the first number that it sends to
+  // another processor is unique: the ID of the particle that represents the body
   const bool small = std::strstr(fix->style, "/small") != nullptr;
-  constexpr int longest = 1024;    // as much as LAMMPS reserves for a fix that says nothing
+  constexpr int longest = 1024;    // what LAMMPS reserves for a fix without a maxexchange
   std::vector<double> packed(small ? longest : 0);
   const double count = static_cast<double>(fixes_rigid_.size());
   for (int i = 0; i < atom->nlocal; i++) {
@@ -88,8 +88,8 @@ const double *ContactMasses::masses()
 {
   if (!holds_some()) return atom->rmass;
 
-  // which atoms are held or in a body changes with the neighbour list; the masses of others may
-  // at any step
+  // the set of atoms that are frozen or in a body changes only with the neighbour list, the masses
+  // of the others at any step
   const int nall = atom->nlocal + atom->nghost;
   if (neighbor->ago == 0 || static_cast<int>(mass_.size()) != nall) {
     not_their_own_.clear();

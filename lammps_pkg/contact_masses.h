@@ -12,30 +12,29 @@ namespace LAMMPS_NS {
 
 class Fix;
 
-/// The mass that each particle brings to a contact: its own, that of its rigid body, or
-/// infinity where fix freeze holds it. One for the pair style and each wall.
+/// Mass of each particle in a contact: its own, that of its rigid body, or infinity where fix
+/// freeze holds it. The pair style and each wall have their own object.
 class ContactMasses : protected Pointers {
  public:
   explicit ContactMasses(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// Looks up fix freeze and every fix rigid; an error where there are two fix freeze, which LAMMPS
-  /// does not allow either.
+  /// Looks up fix freeze and every fix rigid. Two fix freeze are an error, as in LAMMPS itself.
   void init(const char *command);
 
   /// Masses of owned atoms, and of ghosts once body masses were sent to them; call each step.
   /// \return nlocal + nghost masses, valid until the next call
   const double *masses();
 
-  /// That of one of them, for those who need few.
+  /// Mass of one atom, for callers that need few.
   double mass(int i) const
   {
     if (atom->mask[i] & freeze_groupbit_) return std::numeric_limits<double>::infinity();
-    // fix rigid's are not there before the first force call
+    // masses of rigid bodies are not known before the first force call
     const bool body = !fixes_rigid_.empty() && !body_mass_.empty() && body_mass_[i] > 0.0;
     return body ? body_mass_[i] : atom->rmass[i];
   }
 
-  /// Whether two particles can not move each other: both are frozen, or both in one rigid body.
+  /// Whether two particles can not move each other: both are frozen, or in the same rigid body.
   bool hold_together(int i, int j) const
   {
     if (atom->mask[i] & atom->mask[j] & freeze_groupbit_) return true;
@@ -60,8 +59,8 @@ class ContactMasses : protected Pointers {
   std::vector<Fix *> fixes_rigid_;
   int freeze_groupbit_ = 0;
   std::vector<double> body_mass_;     // 0 for a particle in no body
-  std::vector<double> body_;          // a number of its own for each body of all fixes, likewise
-  std::vector<int> not_their_own_;    // atoms that are held or in a body
+  std::vector<double> body_;          // unique number of a body over all fixes; 0 as above
+  std::vector<int> not_their_own_;    // atoms that are frozen or in a body
   std::vector<double> mass_;
 };
 

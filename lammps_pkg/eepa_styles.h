@@ -11,20 +11,20 @@ class Fix;
 class Compute;
 class LAMMPS;
 
-/// A style of this package and how it is made. One list serves the plugin, build/lmp and the
-/// tests.
+/// A style of this package and the function that makes it. One list serves the plugin, build/lmp
+/// and the tests.
 struct EepaStyle {
   const char *category;    // "pair", "fix" or "compute"
   const char *name;
   const char *info;
-  Pair *(*make_pair)(LAMMPS *);    // set where category says so
+  Pair *(*make_pair)(LAMMPS *);    // the one of the three that belongs to the category is set
   Fix *(*make_fix)(LAMMPS *, int, char **);
   Compute *(*make_compute)(LAMMPS *, int, char **);
 };
 
 const std::vector<EepaStyle> &eepa_styles();
 
-/// Makes the styles known to one LAMMPS instance that this code is linked with.
+/// Registers the styles in one instance of the LAMMPS that this code is linked with.
 void register_eepa_styles(LAMMPS *lmp);
 
 }    // namespace LAMMPS_NS

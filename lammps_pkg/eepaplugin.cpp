@@ -16,9 +16,10 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-// What the plugin was compiled for. LAMMPS only logs a mismatch of versions and knows nothing of
-// integer sizes; both change the layout of classes, and a run would crash or be wrong. The
-// questions go through the C library interface, which does not depend on that layout.
+// The version and integer sizes that the plugin was compiled for. Both change the layout of
+// classes, so a mismatch would crash a run or make it wrong; LAMMPS only logs the version and does
+// not check integer sizes. They are asked for through the C library interface, which does not
+// depend on that layout.
 void require_same_lammps(LAMMPS *lmp)
 {
   if (lammps_version(lmp) != utils::date2num(LAMMPS_VERSION))

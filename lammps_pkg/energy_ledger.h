@@ -8,12 +8,12 @@
 
 namespace LAMMPS_NS {
 
-/// One rank's energies of the contacts of a pair style or a wall. Kept only while a compute
+/// Energies of one rank's contacts of a pair style or a wall. Kept only while a compute
 /// gran/eepa/energy exists.
 struct EnergyLedger {
-  eepa::StoredEnergy elastic;      ///< now, at the last force call
-  eepa::Dissipation dissipated;    ///< since the ledger is kept
-  double wall_work = 0.0;          ///< done on particles since then, walls only
+  eepa::StoredEnergy elastic;      ///< at the last force call
+  eepa::Dissipation dissipated;    ///< since the ledger began
+  double wall_work = 0.0;          ///< work on particles since the ledger began, walls only
 
   void store(const eepa::StoredEnergy &energy, double share)
   {

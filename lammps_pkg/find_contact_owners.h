@@ -18,7 +18,7 @@ namespace LAMMPS_NS {
 inline std::vector<PairGranEepa *> find_eepa_pairs(Force *force)
 {
   std::vector<PairGranEepa *> found;
-  // where there is only one, alone or in hybrid, it answers to every number
+  // pair_match() returns the same style for every nth where there is only one, alone or in hybrid
   for (int nth = 1;; nth++) {
     auto *pair = dynamic_cast<PairGranEepa *>(force->pair_match("^gran/eepa", 0, nth));
     if (!pair || (!found.empty() && found.back() == pair)) break;
@@ -36,7 +36,7 @@ inline std::vector<FixWallGranEepa *> find_eepa_walls(Modify *modify)
   return found;
 }
 
-/// Stops where a compute of energies has no contacts to tell of, or other ones than act.
+/// Stops where a compute of energies has no contacts, or can not know the forces that act.
 inline void require_contacts_of_eepa(const char *compute, LAMMPS *lmp)
 {
   const bool pairs = !find_eepa_pairs(lmp->force).empty();

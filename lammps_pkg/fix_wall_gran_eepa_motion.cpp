@@ -42,7 +42,8 @@ void FixWallGranEepa::require_equal_style(const char *what, const std::string &v
 double FixWallGranEepa::evaluate(const char *what, const eepa::Quantity &quantity)
 {
   if (quantity.variable.empty()) return quantity.value;
-  // `run pre no` calls no init(), and commands of `run every` come in between
+  // the variable may have changed since init(): `run pre no` calls none, and `run every` has
+  // commands
   require_equal_style(what, quantity.variable);
   const double value =
       input->variable->compute_equal(input->variable->find(quantity.variable.c_str()));
@@ -52,14 +53,14 @@ double FixWallGranEepa::evaluate(const char *what, const eepa::Quantity &quantit
   return value;
 }
 
-/// The velocities that the user gives. Their variables may ask for this fix's own vector.
+/// Evaluates the user's velocities. Their variables may ask for this fix's own vector.
 void FixWallGranEepa::evaluate_motion()
 {
   bool any = !told.shear.variable.empty();
   for (const auto &component : told.velocity) any |= !component.variable.empty();
   if (!any) return;
   modify->clearstep_compute();
-  // all of them before one is used
+  // evaluate all components before one is used
   WallMotion::Vector given;
   for (int k = 0; k < 3; k++) given[k] = evaluate("velocity", told.velocity[k]);
   sliding = evaluate("shear", told.shear);
@@ -67,7 +68,7 @@ void FixWallGranEepa::evaluate_motion()
   modify->addstep_compute(update->ntimestep + 1);
 }
 
-/// The force from outside along the plane's axis. Its variables may ask for this fix's own vector.
+/// External force along the plane's axis. Its variables may ask for this fix's own vector.
 double FixWallGranEepa::evaluate_load()
 {
   const eepa::LoadArguments &load = told.load;
@@ -100,7 +101,7 @@ void FixWallGranEepa::initial_integrate(int /*vflag*/)
                "{}: load was given by fix_modify after the last set-up, and its forces are not "
                "known: a run with pre no can not follow; leave pre no away",
                style_name());
-  // the positions that the next force call meets are those of the end of this step
+  // the next force call sees the positions at the end of this step
   evaluate_motion();
   if (loaded()) platen.start_step(dt);
   motion.advance(dt);
@@ -111,7 +112,7 @@ void FixWallGranEepa::final_integrate()
   if (loaded()) platen.end_step(load_now, felt_vector[FORCE_X + surfaces.axis()], dt);
 }
 
-/// Brings the surfaces to where motion and platen are.
+/// Moves the surfaces to the present position of motion and platen.
 void FixWallGranEepa::place_surfaces()
 {
   surfaces.lo = made_at[0];
@@ -147,7 +148,7 @@ void FixWallGranEepa::require_limits(const eepa::LoadArguments &load, double pla
 void FixWallGranEepa::change_motion(const eepa::MotionArguments &next)
 {
   const bool was_loaded = loaded(), is_loaded = next.drive == WallDrive::load;
-  // what the last step ended with
+  // position and velocity at the end of the last step
   const double place = was_loaded ? platen.position : surfaces.position();
   const double speed = was_loaded ? platen.velocity : surfaces.normal_velocity();
   if (was_loaded) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What FixWallGranEepa writes to restart files and takes up from them.
+// How FixWallGranEepa writes restart files and reads them.
 //
-// The fix: a list of numbers, `names` below. The first is the format, the second how many there
-// are. A kind of wall with a shape of its own adds its numbers at the end, under a kind of its own.
+// The fix writes a list of numbers, `names` below. The first is the format, the second their count.
+// A new kind of wall adds the numbers of its shape at the end, with a new value of `kind`.
 //
-// A particle: {length, values a contact, contacts n, n times {face, values of the contact}}, where
-// length counts itself. Only faces that it touches are there: a wall of many faces needs no more.
+// A particle has {length, values a contact, contacts n, n times {face, values of the contact}},
+// where length counts itself. Only faces in contact are written: a wall may have many faces.
 
 #include "fix_wall_gran_eepa.h"
 
@@ -106,7 +106,7 @@ bool is_count(double value, double least, double most)
   return value >= least && value <= most && value == std::floor(value);
 }
 
-/// Why a number can not be what the fix once wrote, or "".
+/// Why the numbers can not have been written by this fix; "" where they can.
 std::string damage(const std::vector<double> &state)
 {
   const auto wrong = [&state](int index) {
@@ -114,7 +114,7 @@ std::string damage(const std::vector<double> &state)
   };
   for (int k = 0; k < N_STATE; k++)
     if (!std::isfinite(state[k])) return wrong(k);
-  constexpr double huge = 9007199254740992.0;    // 2^53: integers beyond are not exact
+  constexpr double huge = 9007199254740992.0;    // 2^53: larger integers are not exact
   const struct {
     int index;
     double least, most;
@@ -193,7 +193,7 @@ std::vector<double> FixWallGranEepa::restart_state() const
 
 void FixWallGranEepa::write_restart(FILE *fp)
 {
-  // collective where the forces of all ranks were not summed yet
+  // on all ranks, because it sums the forces of all ranks where that was not done yet
   FixWallGranEepa::compute_vector(0);
   if (comm->me != 0) return;
   const std::vector<double> state = restart_state();
@@ -205,7 +205,7 @@ void FixWallGranEepa::write_restart(FILE *fp)
 void FixWallGranEepa::restart(char *buf)
 {
   std::vector<double> state(N_STATE);
-  // another format may be shorter
+  // read the format alone first: another format may be shorter
   std::memcpy(state.data(), buf, sizeof(double));
   if (state[FORMAT] != restart_format)
     error->all(FLERR,
@@ -226,8 +226,8 @@ void FixWallGranEepa::restart(char *buf)
   felt_summed = true;
 }
 
-/// Histories belong to faces and to a layout: another one is refused. Law and exponent read the same
-/// histories in another way, and a plane's coordinate is that of the file: both with a warning.
+/// Stops where the histories belong to other faces or another layout. Warns where law or exponent
+/// differ, which read histories differently, and where a plane's coordinate differs: the file's stays.
 void FixWallGranEepa::require_same_wall(const std::vector<double> &state) const
 {
   const std::string was = shape_name(static_cast<int>(state[KIND]), static_cast<int>(state[SIDES])),
@@ -281,7 +281,7 @@ void FixWallGranEepa::require_same_wall(const std::vector<double> &state) const
                      id, plane.name, plane.typed, plane.stored);
 }
 
-/// The wall as it was, and then the change to what the command says, if it says another motion.
+/// Restores the wall of the file, then changes its motion where the command gives another one.
 void FixWallGranEepa::take_up_motion(const std::vector<double> &state)
 {
   const eepa::MotionArguments typed = told;
@@ -311,7 +311,7 @@ void FixWallGranEepa::take_up_motion(const std::vector<double> &state)
     change_motion(typed);
     return;
   }
-  // the same goes on, with the numbers of the command where it has numbers
+  // the same motion goes on; numbers of the command replace those of the file
   told = typed;
   for (int k = 0; k < 3; k++)
     if (told.velocity[k].variable.empty()) motion.given[k] = told.velocity[k].value;
@@ -364,7 +364,7 @@ void FixWallGranEepa::unpack_restart(int i, int nth)
                "with the wall = {}",
                id, atom->tag[i], name, value);
   };
-  // how much there is for one atom, of all fixes
+  // number of values that all fixes together have for one atom
   const double end = atom->nextra_store;
   double start = 0.0;
   for (int k = 0; k <= nth; k++) {

@@ -19,10 +19,10 @@ void PairGranEepaOMP::cut_list(int count)
   const int *ilist = list->ilist;
   first_places.clear();
   first_atoms.clear();
-  // a slice's atoms are a run only where the list is in the order of atoms, as LAMMPS's are
+  // atoms of a slice are consecutive only where the list is sorted by atom, as LAMMPS's lists are
   if (std::adjacent_find(ilist, ilist + inum, std::greater_equal<>()) != ilist + inum) return;
 
-  // slices of equal work: a distance a neighbour, and something for the particle itself
+  // slices of equal work: 1 for each neighbour's distance, and own_work for the particle itself
   constexpr bigint own_work = 2;
   bigint work = 0;
   for (int ii = 0; ii < inum; ii++) work += own_work + list->numneigh[ilist[ii]];
@@ -40,14 +40,14 @@ void PairGranEepaOMP::cut_list(int count)
     return;
   }
   first_places.push_back(inum);
-  first_atoms.push_back(std::numeric_limits<int>::max());    // ghosts are the last slice's
+  first_atoms.push_back(std::numeric_limits<int>::max());    // ghosts belong to the last slice
 }
 
 void PairGranEepaOMP::work_through_list()
 {
   const int count = comm->nthreads;
   if (neighbor->ago == 0 || first_places.empty()) cut_list(count);
-  // LAMMPS's tallies of energy and virial are not made for threads
+  // LAMMPS's tallies of energy and virial are not thread-safe
   if (count == 1 || evflag || first_places.empty()) {
     PairGranEepa::work_through_list();
     return;

@@ -14,13 +14,13 @@ PairStyle(gran/eepa/omp,PairGranEepaOMP);
 
 namespace LAMMPS_NS {
 
-/// pair_style gran/eepa/omp: the neighbour list cut into a slice for each thread. A thread writes
-/// forces on its own run of atoms; those on atoms of others it hands over, and they are added in
-/// the order of the slices when all are done: no copy of the forces for each thread, and the same
-/// bits in every run with as many threads.
+/// pair_style gran/eepa/omp: the neighbour list is cut into one slice for each thread. A thread
+/// writes forces on the atoms of its slice. Forces on atoms of other slices it hands over; they are
+/// added in the order of the slices when all threads are done. So no thread has a copy of all
+/// forces, and the same number of threads gives the same bits in every run.
 ///
-/// It needs nothing of LAMMPS's OPENMP package but the number of threads, and so the plugin still
-/// loads into a LAMMPS without it.
+/// The style takes only the number of threads from LAMMPS's OPENMP package, so that the plugin also
+/// loads into a LAMMPS without that package.
 class PairGranEepaOMP : public PairGranEepa {
  public:
   using PairGranEepa::PairGranEepa;
@@ -29,7 +29,7 @@ class PairGranEepaOMP : public PairGranEepa {
   void work_through_list() override;
 
  private:
-  std::vector<int> first_places, first_atoms;    // of each slice, and where the last one ends
+  std::vector<int> first_places, first_atoms;    // of each slice, and the end of the last slice
 
   void cut_list(int count);
   void add_deferred(int slice);

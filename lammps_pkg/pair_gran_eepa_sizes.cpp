@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What PairGranEepa knows of the sizes of particles: how far neighbour lists must reach, and how
-// large a time step may be.
+// Sizes of particles in PairGranEepa: the reach of neighbour lists and the bound on the time step.
 
 #include "pair_gran_eepa.h"
 
@@ -77,13 +76,14 @@ void PairGranEepa::warn_of_narrow_box()
   }
 }
 
-/// The largest radius of a type at the start of the run, with what is still to come.
+/// Largest radius of a type at the start of the run, particles still to be inserted included.
 double PairGranEepa::largest_partner(int type) const
 {
   return std::max(max_radius_dynamic[type], max_radius_frozen[type]);
 }
 
-/// A new neighbour list reaches as far as the radii at the start of the run.
+/// Stops where a radius exceeds the largest at the start of the run, which sets the reach of
+/// neighbour lists.
 void PairGranEepa::check_radii() const
 {
   for (int i = 0; i < atom->nlocal; i++) {
@@ -108,7 +108,7 @@ TimeStepBound PairGranEepa::largest_time_step(const std::vector<AnnouncedParticl
   for (const AnnouncedParticles &come : announced)
     partner[come.type] = std::max(partner[come.type], 0.5 * come.largest);
 
-  // the lightest particle need not be the one with the stiffest contact: each meets the largest
+  // the lightest particle need not have the stiffest contact, so each is paired with the largest
   // partner of every type
   std::vector<double> mine((n + 1) * (n + 1), never), all((n + 1) * (n + 1), never);
   const auto meet_all = [&](int itype, double radius, double mass) {
@@ -155,12 +155,12 @@ void PairGranEepa::check_time_step()
     error->warning(FLERR, message);
 }
 
-/// Particles that came in mid-run were not there when the time step was checked. Their largest
-/// partners were: fixes that insert particles announce their radii. Collective.
+/// Checks the time step for particles that were inserted after it was checked. Their largest
+/// partners were known then, because fixes that insert particles announce their radii. Collective.
 void PairGranEepa::check_newcomers()
 {
   if (style.time_step_check == eepa::TimeStepCheck::off || time_step_warned) return;
-  // where nobody inserts particles no rank asks the others
+  // no communication where no particles are inserted
   if (!particles_come && atom->natoms == checked_particles) return;
   checked_particles = atom->natoms;
   double bound = never;
@@ -182,7 +182,7 @@ void PairGranEepa::check_newcomers()
       worst = i;
     }
   }
-  // of all ranks the one with the smallest bound speaks
+  // the rank with the smallest bound warns
   struct {
     double bound;
     int rank;

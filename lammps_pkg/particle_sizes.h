@@ -8,13 +8,13 @@
 
 namespace LAMMPS_NS {
 
-/// A bound on the time step and what sets it.
+/// A bound on the time step and the contact that sets it.
 struct TimeStepBound {
   double time_step;      ///< [time]; infinity where nothing can touch
   std::string origin;    ///< "pair of types 1 and 2", "fix top"
 };
 
-/// Particles that are not there yet, as a user tells of them.
+/// Particles that are still to be inserted, as a user announces them.
 struct AnnouncedParticles {
   int type;
   double smallest, largest;    ///< diameters [length]

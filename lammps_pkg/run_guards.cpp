@@ -21,7 +21,7 @@ using namespace LAMMPS_NS;
 namespace {
 typedef std::initializer_list<const char *> Names;
 
-/// A style's name without that of an accelerator package.
+/// A style's name without the suffix of an accelerator package.
 std::string plain(const std::string &style)
 {
   for (const std::string suffix : {"/omp", "/kk", "/kk/host", "/kk/device", "/intel", "/opt"})
@@ -39,12 +39,12 @@ bool is_one_of(const std::string &style, Names names)
   });
 }
 
-// Commands that neither minimize nor run steps one after the other: they exchange or displace
-// positions, and contacts have no history there. The others that are unfit minimize.
+// Commands that do not run consecutive steps but exchange or displace positions, so that contacts
+// have no history. All other unfit commands minimize and are found by that.
 constexpr Names commands_without_history = {
     "dynamical_matrix", "third_order", "prd",        "tad", "hyper",
     "temper",           "temper/grem", "temper/npt", "neb", "neb/spin"};
-// Fixes and computes that call the pair style for positions of their own.
+// Fixes and computes that call the pair style for trial positions.
 constexpr Names fixes_calling_forces = {
     "numdiff",           "numdiff/virial", "gcmc",     "widom", "gemc",         "hmc",
     "charge/regulation", "atom/swap",      "mol/swap", "sgcmc", "neighbor/swap"};

@@ -2,8 +2,8 @@
 #ifndef LMP_EEPA_RUN_GUARDS_H
 #define LMP_EEPA_RUN_GUARDS_H
 
-// What the styles of this package can not work with, refused by name before a step is run, and
-// what is likely to be a mistake, named once.
+// Checks before a run: what the styles of this package can not work with is refused by name, and
+// what is likely to be a mistake is named once.
 
 #include <string>
 
@@ -11,25 +11,26 @@ namespace LAMMPS_NS {
 
 class LAMMPS;
 
-/// An error where force is not mass times acceleration in the chosen units.
+/// Stops in units in which force is not mass times acceleration.
 /// \param who  begins the message: "pair_style gran/eepa"
 void require_consistent_units(LAMMPS *, const std::string &who);
 
-/// An error where a command, an integrator, a fix or a compute asks for forces more or less than
+/// Stops where a command, an integrator, a fix or a compute asks for forces more or less often than
 /// once a step. To be called in an init.
 void require_force_once_a_step(LAMMPS *, const std::string &who);
 
-/// An error with comm_style tiled and newton on, of which LAMMPS says less.
+/// Stops with comm_style tiled and newton on; LAMMPS's own error is less clear.
 void require_history_communication(LAMMPS *, const std::string &who);
 
-/// \return what to say about fixes that move particles and do not turn them, "" without one
+/// Warning of fixes that move particles and do not turn them.
 /// \param mu  the largest coefficient of friction
+/// \return the text, "" where there is no such fix or mu = 0
 std::string advice_on_rotation(LAMMPS *, double mu);
 
-/// \return what to say about fix heat/flow, to which no contact of this package brings heat
+/// \return warning of fix heat/flow, as contacts of this package conduct no heat; "" without one
 std::string advice_on_heat(LAMMPS *);
 
-/// \return what to say about the command rerun, "" in any other
+/// \return warning of the command rerun, "" in any other command
 std::string advice_on_rerun(LAMMPS *);
 
 }    // namespace LAMMPS_NS

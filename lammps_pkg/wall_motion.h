@@ -10,13 +10,13 @@
 
 namespace LAMMPS_NS {
 
-/// Time that has passed, step by step. Steps of one length are counted, so that their sum has one
-/// rounding; a step of another length adds to what was there.
+/// Time that has passed, summed step by step. Steps of equal length are counted, so that their sum
+/// is rounded only once.
 class ElapsedTime {
  public:
-  double before = 0.0;       ///< what had passed when the present length of step began [time]
-  double step = 0.0;         ///< the present length of step [time]
-  std::int64_t steps = 0;    ///< of that length
+  double before = 0.0;       ///< time that had passed when the time step last changed [time]
+  double step = 0.0;         ///< the present time step [time]
+  std::int64_t steps = 0;    ///< number of steps of that length
 
   double value() const { return before + step * static_cast<double>(steps); }
   void add(double dt)
@@ -30,32 +30,32 @@ class ElapsedTime {
   }
 };
 
-/// Where a wall is and how fast its surfaces go, under all drives but `load`. Displacement belongs
-/// to the wall: each drive begins where the last one left it, and the time of a wiggle is what has
-/// passed since it began, whatever the number and the length of the steps. Knows no contacts.
+/// Displacement and velocity of a wall under all drives except `load`. Each drive starts from the
+/// displacement at which the last one ended. The phase of a wiggle follows the time since it began,
+/// for any number and length of steps. Knows nothing of contacts.
 class WallMotion {
  public:
   using Vector = std::array<double, 3>;
 
   eepa::WallDrive drive = eepa::WallDrive::still;
-  Vector given = {0.0, 0.0, 0.0};    ///< `velocity`, as evaluated last [length/time]
+  Vector given = {0.0, 0.0, 0.0};    ///< last value of `velocity` [length/time]
   int wiggle_axis = 0;
   double amplitude = 0.0;    ///< [length]
   double period = 1.0;       ///< [time]
 
-  // what a restart keeps
+  // kept in restart files
   Vector displacement = {0.0, 0.0, 0.0};    ///< since the wall was made [length]
-  Vector origin = {0.0, 0.0, 0.0};          ///< displacement where the present drive began
-  ElapsedTime time;                         ///< since then
+  Vector origin = {0.0, 0.0, 0.0};          ///< displacement when the present drive began [length]
+  ElapsedTime time;                         ///< since the present drive began
 
-  /// The drive as told begins here and now.
+  /// Begins the present drive at the present displacement.
   void begin()
   {
     origin = displacement;
     time = ElapsedTime();
   }
 
-  /// To the end of a step.
+  /// Moves the wall to the end of a step.
   void advance(double dt)
   {
     time.add(dt);
@@ -66,7 +66,7 @@ class WallMotion {
     }
   }
 
-  /// Of the wall as a body: what its surface does besides (`shear`) moves nothing.
+  /// Velocity of the wall as a body, without that of its surface (`shear`) [length/time]
   Vector velocity() const
   {
     if (drive == eepa::WallDrive::velocity) return given;

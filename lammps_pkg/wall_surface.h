@@ -31,7 +31,7 @@ class WallSurfaces {
   int axis() const { return static_cast<int>(kind); }
   /// Planes: lo and hi, or the one that there is; a cylinder: inner and outer side.
   int count() const { return is_plane() ? (has_lo ? 1 : 0) + (has_hi ? 1 : 0) : 2; }
-  /// What a restart file calls a surface: 0 for lo and a cylinder's inner side, 1 for the other.
+  /// Number of a surface in restart files: 0 for lo and a cylinder's inner side, 1 for the other.
   int face(int surface) const { return is_plane() && !has_lo ? 1 : surface; }
   const char *kind_name() const
   {
@@ -44,19 +44,19 @@ class WallSurfaces {
   {
     return is_plane() ? (has_lo ? lo : hi) + displacement[axis()] : radius;
   }
-  /// Puts a single plane there, without displacement.
+  /// Moves a single plane to a coordinate, without displacement.
   void place(double coordinate) { (has_lo ? lo : hi) = coordinate; }
-  /// From the first plane to the particles: 1 or -1 along the axis.
+  /// Direction from the first plane to the particles: 1 or -1 along the axis.
   double inward() const { return has_lo ? 1.0 : -1.0; }
   double normal_velocity() const { return is_plane() ? velocity[axis()] : 0.0; }
 
-  /// Whether a new contact at x would be one with this surface and not with the other side.
+  /// Whether a new contact at x belongs to this surface and not to the other side of the cylinder.
   bool on_side(int surface, const double *x) const
   {
     return is_plane() || is_inner(surface) == (distance_from_axis(x) < radius);
   }
 
-  /// Whether nearest() would find an overlap: for the many particles that are nowhere near.
+  /// Whether nearest() would find an overlap: a cheap test for the many particles without one.
   bool reaches(int surface, const double *x, double particle_radius) const
   {
     if (!is_plane())
@@ -64,7 +64,7 @@ class WallSurfaces {
     return plane_distance(surface, x) < particle_radius;
   }
 
-  /// Whether any surface is nearer to x than `reach`, or a plane's back.
+  /// Whether x is nearer to any surface than `reach`, or behind a plane.
   bool near(const double *x, double reach) const
   {
     if (!is_plane()) return std::fabs(radius - distance_from_axis(x)) < reach;
@@ -73,7 +73,7 @@ class WallSurfaces {
     return false;
   }
 
-  /// How much nearer the surfaces may have come to anything since they were `before` [length]
+  /// Largest distance by which the surfaces may have approached any point since `before` [length]
   double moved_since(const WallSurfaces &before) const
   {
     if (is_plane()) return std::fabs(position() - before.position());
@@ -81,10 +81,10 @@ class WallSurfaces {
                       displacement[1] - before.displacement[1]);
   }
 
-  /// Whether a plane has its inner side towards + of the axis.
+  /// Whether the inner side of a plane faces +axis.
   bool is_lower(int surface) const { return has_lo && surface == 0; }
 
-  /// Where a surface is nearest to a particle.
+  /// The point of a surface that is nearest to a particle.
   /// \param surface  0 .. count() - 1
   eepa::WallPoint<double> nearest(int surface, const eepa::Body<double> &particle) const
   {
@@ -104,11 +104,11 @@ class WallSurfaces {
     const double from_axis = distance_from_axis(x);
     const double inside = is_inner(surface) ? 1.0 : -1.0;
     point.overlap = particle.radius - inside * (radius - from_axis);
-    eepa::Vec3 radial(1.0, 0.0, 0.0);    // any direction serves a particle on the axis
+    eepa::Vec3 radial(1.0, 0.0, 0.0);    // arbitrary for a particle on the axis
     if (from_axis > 0.0) radial = eepa::Vec3(dx / from_axis, dy / from_axis, 0.0);
     point.normal = -inside * radial;
-    // inside a cylinder the normal points at the axis: it turns against the motion of the particle
-    // around that, seen from the cylinder
+    // inside a cylinder the normal points at the axis, so it turns against the particle's motion
+    // around the axis, relative to the cylinder
     const double curvature = from_axis > 0.0 ? inside / from_axis : 0.0;
     const eepa::Vec3 relative = particle.v - point.velocity;
     const eepa::Vec3 around(relative[0], relative[1], 0.0);
@@ -127,7 +127,7 @@ class WallSurfaces {
     return std::sqrt(dx * dx + dy * dy);
   }
 
-  /// From a plane to a centre, > 0 on the plane's inner side [length]
+  /// Distance of a centre from a plane, > 0 on the plane's inner side [length]
   double plane_distance(int surface, const double *x) const
   {
     const int dim = axis();
