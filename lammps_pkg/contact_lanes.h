@@ -25,7 +25,6 @@ class ContactLanes {
       i_[lane] = found[lane].i;
       j_[lane] = found[lane].j;
       history_[lane] = found[lane].history;
-      status_[lane] = found[lane].status;
     }
   }
 
@@ -43,7 +42,10 @@ class ContactLanes {
     eepa::HistoryOf<Lanes> history = eepa::load_history<Layout>(history_);
     const eepa::ResponseOf<Lanes> response = ContactLaw::evaluate(c, contact, time_step, history);
     eepa::store_history<Layout>(history, history_);
-    eepa::ContactStatus::store(response, status_);
+    // looked up here, for there are too few registers to keep them from the start
+    eepa::LanePointers<int> status;
+    for (int lane = 0; lane < width; lane++) status[lane] = found_[lane].status;
+    eepa::ContactStatus::store(response, status);
     scatter(ContactLaw::wrench(response, contact), forces, slice);
   }
 
@@ -54,7 +56,6 @@ class ContactLanes {
   const FoundContact *found_;
   Index i_[width], j_[width];
   eepa::LanePointers<double> history_;
-  eepa::LanePointers<int> status_;
 
   EEPA_FUNCTION static eepa::Lanes numbers(const double *array, const Index (&atoms)[width])
   {

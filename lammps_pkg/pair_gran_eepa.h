@@ -176,7 +176,6 @@ class PairGranEepa : public Pair {
   /// Has every slice of the neighbour list worked through.
   virtual void work_through_list();
   void work_through(ContactSlice &);
-  void prefetch_neighbors(int place, int end, const double *f, const double *torque) const;
   void open_contact(ContactSlice &, int i, int place);
   void evaluate_block(ContactSlice &, int count);
   int drop_held_pairs(ContactSlice &, int count) const;

@@ -118,45 +118,56 @@ EEPA_FUNCTION void prefetch_written([[maybe_unused]] const void *written)
 }
 
 /// What the evaluation of a contact reads and writes of its partner j. Particle i comes in turn.
-EEPA_FUNCTION void prefetch_partner(std::ptrdiff_t j, const ParticleArrays &p, const double *f,
-                                    const double *torque)
+EEPA_FUNCTION void prefetch_partner(std::ptrdiff_t j, const ParticleArrays &p,
+                                    const ForceArrays &forces)
 {
   prefetch(p.v + 3 * j);
   prefetch(p.omega + 3 * j);
   prefetch(p.mass + j);
-  prefetch_written(f + 3 * j);
-  prefetch_written(torque + 3 * j);
+  prefetch_written(forces.f + 3 * j);
+  prefetch_written(forces.torque + 3 * j);
 }
-}    // namespace
+/// Where the rows of the neighbour list and of the histories begin.
+struct NeighborRows {
+  const int *ilist, *numneigh;
+  int *const *neighbors, *const *status;
+  double *const *history;
+};
+
+NeighborRows rows_of(const NeighList &list, const ContactHistory &contacts)
+{
+  return {list.ilist, list.numneigh, list.firstneigh, contacts.firstflag, contacts.firstvalue};
+}
 
 /// What the search is going to read, in the order in which it needs that, and of the last
 /// neighbour of a particle also what a contact with it takes: a neighbour list goes through the
 /// box in layers, and that is where a particle comes into sight for the first time.
-EEPA_FUNCTION void PairGranEepa::prefetch_neighbors(int place, int end, const double *f,
-                                                    const double *torque) const
+EEPA_FUNCTION void prefetch_neighbors(const NeighborRows &rows, int place, int end,
+                                      const ParticleArrays &p, const ForceArrays &forces)
 {
   constexpr int soon = 8, later = 16, much_later = 32;    // particles on
   // where the rows begin is known from arrays that are not in the cache either
   constexpr int pointers_in_line = 8;
   if (place % pointers_in_line == 0 && place + 2 * much_later < end) {
-    prefetch(list->ilist + place + 2 * much_later);
-    const int first = list->ilist[place + much_later];
-    prefetch(list->numneigh + first);
-    prefetch(list->firstneigh + first);
-    prefetch(fix_history->firstflag + first);
-    prefetch(fix_history->firstvalue + first);
+    prefetch(rows.ilist + place + 2 * much_later);
+    const int first = rows.ilist[place + much_later];
+    prefetch(rows.numneigh + first);
+    prefetch(rows.neighbors + first);
+    prefetch(rows.status + first);
+    prefetch(rows.history + first);
   }
   if (place + later >= end) return;
-  const int far = list->ilist[place + later], near = list->ilist[place + soon];
-  prefetch(list->firstneigh[far]);
-  prefetch(fix_history->firstflag[far]);
-  prefetch_written(fix_history->firstvalue[near]);
-  if (list->numneigh[near] == 0) return;
-  const std::ptrdiff_t j = list->firstneigh[near][list->numneigh[near] - 1] & NEIGHMASK;
-  prefetch(particles.x + 3 * j);
-  prefetch(particles.radius + j);
-  prefetch_partner(j, particles, f, torque);
+  const int far = rows.ilist[place + later], near = rows.ilist[place + soon];
+  prefetch(rows.neighbors[far]);
+  prefetch(rows.status[far]);
+  prefetch_written(rows.history[near]);
+  if (rows.numneigh[near] == 0) return;
+  const std::ptrdiff_t j = rows.neighbors[near][rows.numneigh[near] - 1] & NEIGHMASK;
+  prefetch(p.x + 3 * j);
+  prefetch(p.radius + j);
+  prefetch_partner(j, p, forces);
 }
+}    // namespace
 
 /* ---------------------------------------------------------------------- finding contacts */
 
@@ -174,48 +185,46 @@ void PairGranEepa::work_through(ContactSlice &slice)
   slice.atom_losses = keep_atom_losses ? &atom_losses : nullptr;
   slice.deferred_losses.clear();
   slice.deep_i = slice.deep_j = -1;
-  const int *ilist = list->ilist;
-  const int *numneigh = list->numneigh;
-  int **firstneigh = list->firstneigh;
-  int **first_status = fix_history->firstflag;
-  const double *x = particles.x;
-  const double *radius = particles.radius;
-  const double *f = atom->f[0], *torque = atom->torque[0];
+  const NeighborRows rows = rows_of(*list, *fix_history);
+  const ParticleArrays p = particles;
+  const ForceArrays f = forces;
   // about 300 bytes a particle: fewer of them come from the cache without being asked for
-  constexpr int cached_particles = 65536;
+  constexpr int cached_particles = 8192;
   const bool far_from_cache = slice.end - slice.begin > cached_particles;
 
   std::ptrdiff_t count = 0;
   for (int ii = slice.begin; ii < slice.end; ii++) {
-    const int i = ilist[ii];
-    const int *neighbors = firstneigh[i];
-    const int jnum = numneigh[i];
-    int *status = first_status[i];
-    const double *x_i = x + 3 * static_cast<std::ptrdiff_t>(i);
+    const int i = rows.ilist[ii];
+    const int *neighbors = rows.neighbors[i];
+    const int jnum = rows.numneigh[i];
+    const int *status = rows.status[i];
+    const double *x_i = p.x + 3 * static_cast<std::ptrdiff_t>(i);
     const double x_of_i = x_i[0], y_of_i = x_i[1], z_of_i = x_i[2];
-    const double radius_i = radius[i];
-    if (far_from_cache) prefetch_neighbors(ii, slice.end, f, torque);
+    const double radius_i = p.radius[i];
+    if (far_from_cache) prefetch_neighbors(rows, ii, slice.end, p, f);
 
     // most neighbours do not touch: they cost one distance, and their place is overwritten
     if (static_cast<std::ptrdiff_t>(slice.touching.size()) < count + jnum)
       slice.touching.resize(count + jnum + ContactSlice::block);
-    TouchingPair *touching = slice.touching.data();
+    TouchingPair *const touching = slice.touching.data(), *next = touching + count;
     for (int jj = 0; jj < jnum; jj++) {
       const std::ptrdiff_t j = neighbors[jj] & NEIGHMASK;
-      const double *x_j = x + 3 * j;
+      const double *x_j = p.x + 3 * j;
       const double dx = x_of_i - x_j[0], dy = y_of_i - x_j[1], dz = z_of_i - x_j[2];
-      const double reach = radius_i + radius[j];
-      const int touches = dx * dx + dy * dy + dz * dz < reach * reach;
-      touching[count] = {i, jj};
-      count += touches;
-      // a status other than 0, and not touching: all bits of touches - 1 are set
-      if (status[jj] & (touches - 1)) open_contact(slice, i, jj);
+      const double reach = radius_i + p.radius[j];
+      const bool apart = !(dx * dx + dy * dy + dz * dz < reach * reach);
+      const std::size_t touches = !apart;
+      *next = {i, jj};
+      next += touches;
+      // a status other than 0, and not touching: no status is as large as 2^30
+      if (status[jj] > static_cast<int>(touches << 30)) open_contact(slice, i, jj);
     }
+    count = next - touching;
     if (count >= ContactSlice::block) {
       // what would not fill the lanes waits for the next block
       const std::ptrdiff_t whole = count - count % side_by_side;
       evaluate_block(slice, static_cast<int>(whole));
-      std::copy(touching + whole, touching + count, touching);
+      std::copy(touching + whole, next, touching);
       count -= whole;
     }
   }
@@ -234,19 +243,20 @@ void PairGranEepa::open_contact(ContactSlice &slice, int i, int place)
 
 void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
 {
-  int **firstneigh = list->firstneigh;
-  int **first_status = fix_history->firstflag;
-  double **first_history = fix_history->firstvalue;
+  const NeighborRows rows = rows_of(*list, *fix_history);
+  const ParticleArrays p = particles;
+  const ForceArrays f = forces;
   const int size = history_size();
-  const double *f = atom->f[0], *torque = atom->torque[0];
   if (static_cast<int>(slice.contacts.size()) < count) slice.contacts.resize(count);
+  const TouchingPair *touching = slice.touching.data();
+  FoundContact *found = slice.contacts.data();
   for (int n = 0; n < count; n++) {
-    const int i = slice.touching[n].i, place = slice.touching[n].place;
-    const FoundContact contact = {i, firstneigh[i][place] & NEIGHMASK, first_status[i] + place,
-                                  first_history[i] + static_cast<std::ptrdiff_t>(size) * place};
+    const int i = touching[n].i, place = touching[n].place;
+    const FoundContact contact = {i, rows.neighbors[i][place] & NEIGHMASK, rows.status[i] + place,
+                                  rows.history[i] + static_cast<std::ptrdiff_t>(size) * place};
     prefetch_written(contact.history);
-    prefetch_partner(contact.j, particles, f, torque);
-    slice.contacts[n] = contact;
+    prefetch_partner(contact.j, p, f);
+    found[n] = contact;
   }
   if (masses.holds_some()) count = drop_held_pairs(slice, count);
   if (coefficient_classes.size() == 1) {

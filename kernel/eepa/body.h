@@ -62,7 +62,7 @@ EEPA_FUNCTION ContactOf<Real> contact_of(const Body<Real> &i, const Body<Real> &
   contact.turn = turn_of_pair<Real>(contact.normal, contact.velocity, inverse_distance, time_step);
   contact.twist = twist_of_pair<Real>(contact.normal, i.omega + j.omega, time_step);
   if constexpr (ContactLaw::reads_effective_radius)
-    contact.effective_radius = effective_radius(i.radius, j.radius);
+    contact.effective_radius = i.radius * j.radius / contact.size;    // both are finite
   if constexpr (ContactLaw::has_couple) contact.angular_velocity = i.omega - j.omega;
   return contact;
 }
