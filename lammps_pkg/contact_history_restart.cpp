@@ -4,6 +4,8 @@
 
 #include "contact_history.h"
 
+#include <eepa_commands/restart_numbers.h>
+
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -14,17 +16,13 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 using namespace LAMMPS_NS;
 
 namespace {
 /// Numbers of the law that made the histories, stored once for all particles.
 enum LawNumbers { LAW, EXPONENT, N_LAW_NUMBERS };
-
-const char *name_of(eepa::Law law)
-{
-  return law == eepa::Law::plateau ? "plateau" : "linear";
-}
 
 /// Entry of a restart file for one particle, as LAMMPS's fix and this one write it: its size, the
 /// number of partners, ID and values of each partner, and the tail.
@@ -80,8 +78,11 @@ void ContactHistory::restart(char *buf)
 {
   std::array<double, N_LAW_NUMBERS> numbers;
   std::memcpy(numbers.data(), buf, sizeof(numbers));
-  made_by.law = numbers[LAW] == static_cast<double>(eepa::Law::plateau) ? eepa::Law::plateau
-                                                                        : eepa::Law::linear;
+  try {
+    made_by.law = eepa::unpack_law(numbers[LAW]);
+  } catch (const std::invalid_argument &e) {
+    error->all(FLERR, "pair_style gran/eepa: {}", e.what());
+  }
   made_by.exponent = numbers[EXPONENT];
   law_is_known = true;
   just_restarted = true;
@@ -97,7 +98,7 @@ void ContactHistory::go_on_with(const eepa::LawSettings &law)
       error->warning(FLERR,
                      "pair_style gran/eepa: {} contacts have histories of the law {} with exponent "
                      "{} and go on with {} and exponent {}",
-                     all / 2, name_of(made_by.law), made_by.exponent, name_of(law.law),
+                     all / 2, eepa::entry_of(made_by.law).name, made_by.exponent, eepa::entry_of(law.law).name,
                      law.exponent);
   }
   made_by = law;

@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -36,26 +35,24 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
                id);
   require_consistent_units(lmp, style_name());
 
-  const eepa::Words words(arg, arg + narg);
-  int iarg = 3;
+  eepa::WallArguments typed;
+  eepa::Words warnings;
   try {
-    iarg = static_cast<int>(eepa::parse_style(words, iarg, "coeff", style));
-    if (iarg == narg) throw std::invalid_argument("missing keyword coeff");
-    eepa::Words warnings;
-    iarg = static_cast<int>(
-        eepa::parse_parameters(words, iarg + 1, "wall", style.settings, parameters, warnings));
-    if (iarg == narg) throw std::invalid_argument("missing keyword wall");
-    if (!warnings.empty() && comm->me == 0)
-      error->warning(FLERR, "fix {} wall/gran/eepa: {}", id, warnings.front());
+    typed = eepa::parse_wall(eepa::Words(arg, arg + narg), 3, warnings);
   } catch (const std::invalid_argument &e) {
     error->all(FLERR, "fix {} wall/gran/eepa: {}", id, e.what());
   }
+  if (!warnings.empty() && comm->me == 0)
+    error->warning(FLERR, "fix {} wall/gran/eepa: {}", id, warnings.front());
+  style = typed.style;
+  parameters = typed.parameters;
   coefficients = eepa::resolve(parameters, style.settings);
-  iarg = parse_wall(narg, arg, iarg + 1);
+  static_cast<eepa::WallShape &>(surfaces) = typed.shape;
+  require_walls_in_the_box();
   made_at = {surfaces.lo, surfaces.hi};
-  const eepa::MotionArguments typed = read_motion(eepa::Words(words.begin() + iarg, words.end()));
+  contact_table = typed.contact_table;
   place_surfaces();
-  change_motion(typed);
+  change_motion(typed.motion);
 
   create_attribute = 1;
   restart_peratom = 1;
@@ -83,25 +80,18 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   for (int i = 0; i < atom->nlocal; i++) FixWallGranEepa::set_arrays(i);
 }
 
-/// The motion among the last words of the command; `contacts` may stand anywhere there.
-eepa::MotionArguments FixWallGranEepa::read_motion(eepa::Words words)
+/// A wall can not lie across a periodic dimension.
+void FixWallGranEepa::require_walls_in_the_box() const
 {
-  const auto end = std::remove(words.begin(), words.end(), "contacts");
-  contact_table = end != words.end();
-  words.erase(end, words.end());
-  eepa::MotionArguments typed;
-  std::size_t read = 0;
-  try {
-    read = eepa::parse_motion(words, 0, {}, for_motion(), typed);
-  } catch (const std::invalid_argument &e) {
-    error->all(FLERR, "fix {} wall/gran/eepa: {}", id, e.what());
+  if (!surfaces.is_plane()) {
+    if (domain->xperiodic || domain->yperiodic)
+      error->all(FLERR,
+                 "fix {} wall/gran/eepa: wall zcylinder can not be used where x or y is periodic",
+                 id);
+  } else if (domain->periodicity[surfaces.axis()]) {
+    error->all(FLERR, "fix {} wall/gran/eepa: wall {} can not be used where {} is periodic", id,
+               surfaces.kind_name(), surfaces.kind_name()[0]);
   }
-  if (read < words.size())
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: keyword '{}' is unknown: it must be velocity, wiggle, "
-               "shear, load, still or contacts",
-               id, words[read]);
-  return typed;
 }
 
 FixWallGranEepa::~FixWallGranEepa()
@@ -111,85 +101,6 @@ FixWallGranEepa::~FixWallGranEepa()
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(history);
   if (contact_table) memory->destroy(array_atom);
-}
-
-/* ---------------------------------------------------------------------- command */
-
-void FixWallGranEepa::require(int narg, int iarg, int count, const char *what)
-{
-  if (iarg + count > narg) error->all(FLERR, "fix {} wall/gran/eepa: missing value: {}", id, what);
-}
-
-double FixWallGranEepa::number(const char *name, const char *word)
-{
-  try {
-    return eepa::parse_number(name, word);
-  } catch (const std::invalid_argument &e) {
-    error->all(FLERR, "fix {} wall/gran/eepa: {}", id, e.what());
-  }
-  return 0.0;
-}
-
-/// A plane's coordinate.
-double FixWallGranEepa::position_word(const char *name, const char *word)
-{
-  if (utils::strmatch(word, "^v_"))
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: {} = {} is not allowed: a position that a variable sets has "
-               "no velocity for the law to know; move the plane by velocity {} with a variable of "
-               "its speed, or by a force with load",
-               id, name, word,
-               surfaces.axis() == 0       ? "v_name 0 0"
-                   : surfaces.axis() == 1 ? "0 v_name 0"
-                                          : "0 0 v_name");
-  return number(name, word);
-}
-
-int FixWallGranEepa::parse_wall(int narg, char **arg, int iarg)
-{
-  require(narg, iarg, 1, "kind of wall (xplane, yplane, zplane or zcylinder)");
-  const std::string kind = arg[iarg];
-  if (kind == "zcylinder") {
-    require(narg, iarg, 2, "wall zcylinder R");
-    surfaces.kind = WallSurfaces::zcylinder;
-    surfaces.radius = number("wall zcylinder R", arg[iarg + 1]);
-    if (surfaces.radius <= 0.0)
-      error->all(FLERR,
-                 "fix {} wall/gran/eepa: wall zcylinder R = {} is not allowed: it must be > 0", id,
-                 arg[iarg + 1]);
-    if (domain->xperiodic || domain->yperiodic)
-      error->all(FLERR,
-                 "fix {} wall/gran/eepa: wall zcylinder can not be used where x or y is periodic",
-                 id);
-    return iarg + 2;
-  }
-  if (kind != "xplane" && kind != "yplane" && kind != "zplane")
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: wall '{}' is unknown: it must be xplane, yplane, zplane or "
-               "zcylinder",
-               id, kind);
-  require(narg, iarg, 3, "wall planes lo hi");
-  surfaces.kind = static_cast<WallSurfaces::Kind>(kind[0] - 'x');
-  surfaces.has_lo = std::strcmp(arg[iarg + 1], "NULL") != 0;
-  surfaces.has_hi = std::strcmp(arg[iarg + 2], "NULL") != 0;
-  if (surfaces.has_lo) surfaces.lo = position_word("wall lo", arg[iarg + 1]);
-  if (surfaces.has_hi) surfaces.hi = position_word("wall hi", arg[iarg + 2]);
-  if (!surfaces.has_lo && !surfaces.has_hi)
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: wall {} NULL NULL has no surface: give lo, hi or both", id,
-               kind);
-  if (surfaces.has_lo && surfaces.has_hi && surfaces.lo >= surfaces.hi)
-    error->all(FLERR, "fix {} wall/gran/eepa: wall {} lo = {} is not allowed: it must be < hi = {}",
-               id, kind, arg[iarg + 1], arg[iarg + 2]);
-  if (domain->periodicity[surfaces.axis()])
-    error->all(FLERR, "fix {} wall/gran/eepa: wall {} can not be used where {} is periodic", id,
-               kind, kind[0]);
-  return iarg + 3;
-}
-
-eepa::WallForMotion FixWallGranEepa::for_motion() const
-{
-  return {surfaces.is_plane(), surfaces.count(), surfaces.axis()};
 }
 
 /* ---------------------------------------------------------------------- set-up */

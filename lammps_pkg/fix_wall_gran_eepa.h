@@ -150,11 +150,7 @@ class FixWallGranEepa : public Fix {
   std::unique_ptr<const ContactEngine> engine;    // of the law
   StepRequest request;                            // of the force call that is under way
 
-  int parse_wall(int narg, char **arg, int iarg);
-  double position_word(const char *name, const char *word);
-  double number(const char *name, const char *word);
-  void require(int narg, int iarg, int count, const char *what);
-  eepa::WallForMotion for_motion() const;
+  void require_walls_in_the_box() const;
   bool loaded() const { return told.drive == eepa::WallDrive::load; }
   /// Goes over to what was told; place, contacts and a platen's speed stay.
   void change_motion(const eepa::MotionArguments &next);
@@ -175,7 +171,6 @@ class FixWallGranEepa : public Fix {
   void check_platen();
   void book(int i, const eepa::Dissipation &);
   std::string style_name() const;
-  eepa::MotionArguments read_motion(eepa::Words);
   void warn_of_rotation();
   void check_time_step();
   void complain(const std::string &message);

@@ -179,19 +179,17 @@ void FixWallGranEepa::change_motion(const eepa::MotionArguments &next)
 /// fix_modify ID still|velocity ...|wiggle ...|shear ...|load ...
 int FixWallGranEepa::modify_param(int narg, char **arg)
 {
-  if (!eepa::is_motion(arg[0])) return 0;
-  const eepa::Words words(arg, arg + narg);
   eepa::MotionArguments next;
-  std::size_t end = 0;
+  std::size_t read = 0;
   try {
-    end = eepa::parse_motion(words, 0, {"dynamic/dof", "energy", "virial", "respa"}, for_motion(),
-                             next);
+    read = eepa::parse_wall_change(eepa::Words(arg, arg + narg), surfaces, next);
   } catch (const std::invalid_argument &e) {
     error->all(FLERR, "fix_modify {} (wall/gran/eepa): {}", id, e.what());
   }
+  if (read == 0) return 0;
   require_variables(next);
   if (next.drive == WallDrive::load)
     require_limits(next.load, loaded() ? platen.position : surfaces.position());
   change_motion(next);
-  return static_cast<int>(end);
+  return static_cast<int>(read);
 }

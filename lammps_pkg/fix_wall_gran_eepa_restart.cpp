@@ -11,6 +11,7 @@
 #include "fix_wall_gran_eepa.h"
 
 #include <eepa/history.h>
+#include <eepa_commands/restart_numbers.h>
 
 #include "atom.h"
 #include "comm.h"
@@ -120,7 +121,7 @@ std::string damage(const std::vector<double> &state)
     double least, most;
   } integers[] = {{KIND, 0, 3},
                   {SIDES, 1, 3},
-                  {LAW, 0, 1},
+                  {LAW, 0, eepa::law_count - 1},
                   {ROLLING_SPRING, 0, 1},
                   {TWISTING_SPRING, 0, 1},
                   {DRIVE, 0, 4},
@@ -254,13 +255,12 @@ void FixWallGranEepa::require_same_wall(const std::vector<double> &state) const
                id, state[VALUES_A_CONTACT], state[ROLLING_SPRING] != 0.0 ? " with rolling sds" : "",
                state[TWISTING_SPRING] != 0.0 ? " with twisting" : "", history_size);
   if (comm->me != 0) return;
-  const char *const laws[] = {"plateau", "linear"};
-  const int law = static_cast<int>(state[LAW]);
-  if (law != static_cast<int>(style.settings.law))
+  const eepa::Law law = eepa::unpack_law(state[LAW]);
+  if (law != style.settings.law)
     error->warning(FLERR,
                    "fix {} wall/gran/eepa: the law was {} when the restart file was written and is "
                    "{} now: contacts keep their largest overlap, and their forces change at once",
-                   id, laws[law], laws[static_cast<int>(style.settings.law)]);
+                   id, eepa::entry_of(law).name, eepa::entry_of(style.settings.law).name);
   if (state[EXPONENT] != style.settings.exponent)
     error->warning(
         FLERR,

@@ -8,6 +8,7 @@
 #include "run_guards.h"
 
 #include <eepa_commands/mixing.h>
+#include <eepa_commands/restart_numbers.h>
 
 #include "atom.h"
 #include "citeme.h"
@@ -336,19 +337,17 @@ void PairGranEepa::write_restart(FILE *fp)
 
 void PairGranEepa::read_restart(FILE *fp)
 {
-  read_restart_settings(fp);
+  const int format = read_style(fp);
   allocate();
   for (int i = 1; i <= atom->ntypes; i++) {
     for (int j = i; j <= atom->ntypes; j++) {
       if (comm->me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
       MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
       if (!setflag[i][j]) continue;
-      std::array<double, eepa::packed_parameters_size> numbers;
-      if (comm->me == 0)
-        utils::sfread(FLERR, numbers.data(), sizeof(double), numbers.size(), fp, nullptr, error);
-      MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, world);
+      std::vector<double> numbers(eepa::packed_size(format));
+      read_numbers(numbers.data(), numbers.size(), fp);
       try {
-        eepa::Parameters read = eepa::unpack_parameters(numbers);
+        const eepa::Parameters read = eepa::unpack_parameters(numbers, format);
         eepa::Words warnings;    // were given when the coefficients were typed
         eepa::require_valid(read, style.settings, warnings);
         parameters[pair_index(i, j)] = parameters[pair_index(j, i)] = read;
@@ -373,15 +372,28 @@ void PairGranEepa::write_restart_settings(FILE *fp)
 
 void PairGranEepa::read_restart_settings(FILE *fp)
 {
+  read_style(fp);
+}
+
+/// \return the format of the file
+int PairGranEepa::read_style(FILE *fp)
+{
   std::array<double, eepa::packed_style_size> numbers;
-  if (comm->me == 0)
-    utils::sfread(FLERR, numbers.data(), sizeof(double), numbers.size(), fp, nullptr, error);
-  MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, world);
+  read_numbers(numbers.data(), numbers.size(), fp);
+  int format = 0;
   try {
-    style = eepa::unpack_style(numbers);
+    style = eepa::unpack_style(numbers, format);
   } catch (const std::invalid_argument &e) {
     error->all(FLERR, "{}: {}", style_name, e.what());
   }
+  return format;
+}
+
+/// From the file of rank 0, for all ranks.
+void PairGranEepa::read_numbers(double *numbers, std::size_t count, FILE *fp)
+{
+  if (comm->me == 0) utils::sfread(FLERR, numbers, sizeof(double), count, fp, nullptr, error);
+  MPI_Bcast(numbers, static_cast<int>(count), MPI_DOUBLE, 0, world);
 }
 
 void PairGranEepa::warn_of_data_file() const

@@ -165,6 +165,8 @@ class PairGranEepa : public Pair {
   void warn_of_fixes();
   int history_size() const;
   void warn(const eepa::Words &);
+  int read_style(FILE *fp);
+  void read_numbers(double *numbers, std::size_t count, FILE *fp);
   void warn_of_data_file() const;
   int find_history(int i, int j, const double *&values, double &sign) const;
   void require_their_distance(int i, int j, double rsq) const;

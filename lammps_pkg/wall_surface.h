@@ -3,6 +3,7 @@
 #define LMP_EEPA_WALL_SURFACE_H
 
 #include <eepa/body.h>
+#include <eepa_commands/wall_commands.h>
 
 #include <array>
 #include <cmath>
@@ -10,35 +11,19 @@
 namespace LAMMPS_NS {
 
 /// The surfaces of one wall: two planes normal to an axis, or both sides of the lateral surface of a
-/// cylinder along z. Geometry and motion only; a kind of wall that is new belongs here.
+/// cylinder along z. Geometry and motion only; a kind of wall that is new belongs here and, as typed, in
+/// eepa::WallShape.
 ///
 /// A particle in contact stays on the side of the cylinder where the contact began: its overlap
 /// with that side grows beyond its radius when its centre has gone through.
-class WallSurfaces {
+class WallSurfaces : public eepa::WallShape {
  public:
-  enum Kind { xplane = 0, yplane = 1, zplane = 2, zcylinder = 3 };
-
-  Kind kind = zplane;
-  bool has_lo = false, has_hi = false;
-  double lo = 0.0, hi = 0.0;    ///< planes: coordinates when the wall was made
-  double radius = 0.0;          ///< cylinder
-
   std::array<double, 3> displacement = {0.0, 0.0, 0.0};    ///< since the wall was made
   std::array<double, 3> velocity = {0.0, 0.0, 0.0};
   double surface_speed = 0.0;    ///< cylinder: of its surface, turning about its axis
 
-  bool is_plane() const { return kind != zcylinder; }
-  int axis() const { return static_cast<int>(kind); }
-  /// Planes: lo and hi, or the one that there is; a cylinder: inner and outer side.
-  int count() const { return is_plane() ? (has_lo ? 1 : 0) + (has_hi ? 1 : 0) : 2; }
   /// Number of a surface in restart files: 0 for lo and a cylinder's inner side, 1 for the other.
   int face(int surface) const { return is_plane() && !has_lo ? 1 : surface; }
-  const char *kind_name() const
-  {
-    constexpr const char *names[] = {"xplane", "yplane", "zplane", "zcylinder"};
-    return names[kind];
-  }
-
   /// Position along the normal of the first surface; the radius of a cylinder.
   double position() const
   {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Any bytes, split at blanks, through the parser that pair_style, pair_coeff and the wall share.
+// Any bytes, split at blanks, through the one parser: pair_style, pair_coeff, the whole of
+// fix wall/gran/eepa and its fix_modify.
 // libFuzzer calls this; replay.cpp does where there is none.
 
-#include <eepa_commands/commands.h>
+#include <eepa_commands/mixing.h>
+#include <eepa_commands/restart_numbers.h>
 #include <eepa_commands/validation.h>
+#include <eepa_commands/wall_commands.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +19,9 @@
 
 namespace {
 
+using eepa::MotionArguments;
+using eepa::WallDrive;
+using eepa::WallShape;
 using eepa::Words;
 
 #define REQUIRE(condition)                                                           \
@@ -52,7 +59,32 @@ template <class Parse> bool accepted(Parse parse)
   }
 }
 
-void check_parameters(const Words &words, std::size_t first, const std::string &stop,
+/// What every set of parameters fulfils that a command was read to.
+void check_parameters(const eepa::Parameters &parameters, const eepa::LawSettings &settings)
+{
+  REQUIRE(eepa::validate(parameters, settings).errors.empty());
+  const auto packed = eepa::pack(parameters);
+  REQUIRE(same_bits(
+      packed,
+      eepa::pack(eepa::unpack_parameters({packed.begin(), packed.end()}, eepa::restart_format))));
+
+  eepa::Parameters again;
+  Words warnings;
+  std::size_t next = 0;
+  const Words written = split(eepa::to_words(parameters));
+  REQUIRE(accepted([&] {
+    next = eepa::parse_parameters(written, 0, "", settings, again, warnings);
+  }));
+  REQUIRE(next == written.size());
+  REQUIRE(same_bits(packed, eepa::pack(again)));
+
+  std::string why;
+  REQUIRE(eepa::mix(parameters, parameters, again, why) && why.empty());
+  REQUIRE(same_bits(packed, eepa::pack(again)));
+}
+
+/// As pair_coeff has them.
+void parse_parameters(const Words &words, std::size_t first, const std::string &stop,
                       const eepa::LawSettings &settings)
 {
   eepa::Parameters parameters;
@@ -64,19 +96,110 @@ void check_parameters(const Words &words, std::size_t first, const std::string &
     return;
   REQUIRE(next > first && next <= words.size());
   REQUIRE(next == words.size() || words[next] == stop);
-  REQUIRE(eepa::validate(parameters, settings).errors.empty());
   for (const auto &warning : warnings) REQUIRE(!warning.empty());
+  check_parameters(parameters, settings);
+}
 
-  const auto packed = eepa::pack(parameters);
-  REQUIRE(same_bits(packed, eepa::pack(eepa::unpack_parameters(packed))));
+bool is_quantity(const eepa::Quantity &quantity)
+{
+  return std::isfinite(quantity.value) && (quantity.variable.empty() || quantity.value == 0.0);
+}
 
-  eepa::Parameters again;
-  const Words written = split(eepa::to_words(parameters));
-  REQUIRE(accepted([&] {
-    next = eepa::parse_parameters(written, 0, "", settings, again, warnings);
-  }));
-  REQUIRE(next == written.size());
-  REQUIRE(same_bits(packed, eepa::pack(again)));
+void check_shape(const WallShape &shape)
+{
+  REQUIRE(shape.kind >= WallShape::xplane && shape.kind <= WallShape::zcylinder);
+  REQUIRE(shape.count() == 1 || shape.count() == 2);
+  if (!shape.is_plane()) {
+    REQUIRE(std::isfinite(shape.radius) && shape.radius > 0.0);
+    return;
+  }
+  REQUIRE(shape.axis() >= 0 && shape.axis() < 3);
+  REQUIRE(std::isfinite(shape.lo) && std::isfinite(shape.hi));
+  if (shape.count() == 2) REQUIRE(shape.lo < shape.hi);
+}
+
+void check_motion(const MotionArguments &motion, const WallShape &shape)
+{
+  for (const auto &component : motion.velocity) REQUIRE(is_quantity(component));
+  REQUIRE(is_quantity(motion.shear));
+  REQUIRE(motion.wiggle_axis >= 0 && motion.wiggle_axis < 3);
+  REQUIRE(motion.shear_axis >= 0 && motion.shear_axis < 3);
+  REQUIRE(eepa::is_motion(eepa::name_of(motion.drive)));
+  if (motion.drive == WallDrive::wiggle)
+    REQUIRE(std::isfinite(motion.amplitude) && std::isfinite(motion.period) && motion.period > 0.0);
+  if (motion.drive == WallDrive::shear) REQUIRE(motion.slides);
+  if (motion.slides) {
+    REQUIRE(motion.drive == WallDrive::shear || motion.drive == WallDrive::load);
+    REQUIRE(!shape.is_plane() || motion.shear_axis != shape.axis());
+  }
+  if (motion.drive != WallDrive::load) return;
+  REQUIRE(shape.is_plane() && shape.count() == 1);
+  const eepa::LoadArguments &load = motion.load;
+  REQUIRE(is_quantity(load.force) && is_quantity(load.pressure) && is_quantity(load.area));
+  REQUIRE(std::isfinite(load.mass) && load.mass > 0.0);
+  REQUIRE(std::isfinite(load.damping) && load.damping >= 0.0);
+  REQUIRE(load.lowest <= load.highest);
+  REQUIRE(load.area.value > 0.0 || !load.area.variable.empty() || !load.by_pressure);
+}
+
+void parse_style(const Words &words)
+{
+  eepa::StyleArguments style;
+  std::size_t next = 0;
+  if (!accepted([&] {
+        next = eepa::parse_style(words, 0, "coeff", style);
+      }))
+    return;
+  REQUIRE(next > 0 && next <= words.size());
+  REQUIRE(next == words.size() || words[next] == "coeff");
+  REQUIRE(eepa::validate(style.settings).errors.empty());
+  const auto packed = eepa::pack(style);
+  int format = 0;
+  REQUIRE(same_bits(packed, eepa::pack(eepa::unpack_style(packed, format))));
+  REQUIRE(format == eepa::restart_format);
+  parse_parameters(words, next + 1, "wall", style.settings);
+}
+
+void parse_wall(const Words &words)
+{
+  eepa::WallArguments wall;
+  Words warnings;
+  if (!accepted([&] {
+        wall = eepa::parse_wall(words, 0, warnings);
+      }))
+    return;
+  REQUIRE(eepa::validate(wall.style.settings).errors.empty());
+  check_parameters(wall.parameters, wall.style.settings);
+  check_shape(wall.shape);
+  check_motion(wall.motion, wall.shape);
+  REQUIRE(wall.contact_table == eepa::contains(words, "contacts"));
+}
+
+void parse_wall_change(const Words &words)
+{
+  WallShape planes[3];
+  planes[0].has_lo = true;
+  planes[1].kind = WallShape::xplane;
+  planes[1].has_lo = planes[1].has_hi = true;
+  planes[1].hi = 1.0;
+  planes[2].kind = WallShape::zcylinder;
+  planes[2].radius = 1.0;
+  for (const WallShape &shape : planes) {
+    MotionArguments motion;
+    motion.amplitude = 77.0;
+    std::size_t read = 0;
+    if (!accepted([&] {
+          read = eepa::parse_wall_change(words, shape, motion);
+        }) ||
+        read == 0) {
+      REQUIRE(motion.amplitude == 77.0);
+      REQUIRE(read == 0);
+      continue;
+    }
+    REQUIRE(read <= words.size() && eepa::is_motion(words.front()));
+    REQUIRE(read == words.size() || !eepa::is_motion(words[read]));
+    check_motion(motion, shape);
+  }
 }
 
 }    // namespace
@@ -93,40 +216,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
       REQUIRE(std::isfinite(value));
   }
 
-  // as a wall has it: style arguments, coeff, parameters, wall
-  eepa::StyleArguments style;
-  std::size_t next = 0;
-  if (accepted([&] {
-        next = eepa::parse_style(words, 0, "coeff", style);
-      })) {
-    REQUIRE(next > 0 && next <= words.size());
-    REQUIRE(next == words.size() || words[next] == "coeff");
-    REQUIRE(eepa::validate(style.settings).errors.empty());
-    const auto packed = eepa::pack(style);
-    REQUIRE(same_bits(packed, eepa::pack(eepa::unpack_style(packed))));
-    check_parameters(words, next + 1, "wall", style.settings);
-  }
-
-  // as a wall's motion has it
-  eepa::LoadArguments load;
-  if (accepted([&] {
-        next = eepa::parse_load(words, 0, {"contacts"}, load);
-      })) {
-    REQUIRE(next > 0 && next <= words.size());
-    REQUIRE(next == words.size() || words[next] == "contacts");
-    REQUIRE(std::isfinite(load.mass) && load.mass > 0.0);
-    REQUIRE(std::isfinite(load.damping) && load.damping >= 0.0);
-    REQUIRE(load.lowest <= load.highest);
-    REQUIRE(load.area.value > 0.0 || !load.area.variable.empty() || !load.by_pressure);
-  }
-
-  // as pair_coeff has it, to the end
-  for (const auto law : {eepa::Law::plateau, eepa::Law::linear})
+  parse_style(words);
+  parse_wall(words);
+  parse_wall_change(words);
+  for (int law = 0; law < eepa::law_count; law++)
     for (const double exponent : {1.0, 1.5}) {
       eepa::LawSettings settings;
-      settings.law = law;
+      settings.law = static_cast<eepa::Law>(law);
       settings.exponent = exponent;
-      if (eepa::validate(settings).errors.empty()) check_parameters(words, 0, "", settings);
+      if (eepa::validate(settings).errors.empty()) parse_parameters(words, 0, "", settings);
     }
   return 0;
 }

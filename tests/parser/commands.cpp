@@ -1,53 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// The parser of pair_style, pair_coeff and wall arguments alone: what it reads, where it stops
-// and what it says of each mistake.
+// The parser of pair_style and pair_coeff: what it reads, where it stops and what it says of each
+// mistake.
 
-#include <eepa_commands/commands.h>
+#include "support.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
-#include <stdexcept>
-
-using namespace eepa;
+using namespace eepa_test;
 
 namespace {
-
-Words words(const std::string &line)
-{
-  std::istringstream stream(line);
-  Words all;
-  for (std::string word; stream >> word;) all.push_back(word);
-  return all;
-}
-
-StyleArguments style_of(const std::string &line)
-{
-  StyleArguments style;
-  parse_style(words(line), 0, "", style);
-  return style;
-}
-
-Parameters parameters_of(const std::string &line, const std::string &style = "linear")
-{
-  Parameters parameters;
-  Words warnings;
-  parse_parameters(words(line), 0, "", style_of(style).settings, parameters, warnings);
-  return parameters;
-}
-
-/// The message of the error that `attempt` throws, "" when it throws none.
-template <class Attempt> std::string refusal(Attempt &&attempt)
-{
-  try {
-    attempt();
-  } catch (const std::invalid_argument &e) {
-    return e.what();
-  }
-  return "";
-}
 
 TEST(StyleArguments, HaveTheDefaultsOfTheContract)
 {
@@ -162,10 +122,6 @@ TEST(Parameters, AreLeftAloneByARefusedCommand)
   EXPECT_EQ(p.k1, 1.0);
 }
 
-struct Mistake {
-  const char *line, *message;
-};
-
 class StyleMistake : public testing::TestWithParam<Mistake> {};
 TEST_P(StyleMistake, IsNamed)
 {
@@ -278,49 +234,6 @@ TEST(ParameterMistakeOfALaw, IsNamed)
             "for exponent 1");
 }
 
-// What restart and data files carry must come back to the last bit.
-bool same(const Parameters &a, const Parameters &b)
-{
-  return pack(a) == pack(b);
-}
-
-TEST(RoundTrip, OfParametersThroughWordsIsExact)
-{
-  for (const char *line : {"0.1 0.30000000000000004 1e-300 -3.3333333333333335 0.5",
-                           "5e3 1e4 5e3 -1e-9 0.5 kt 0.1 restitution 0.7 rolling constant 0.001",
-                           "5e3 1e4 5e3 0 0.5 kt 0 viscous 0.1 0.2 rolling sds 0.1 0.2 0.3",
-                           "5e3 1e4 5e3 0 0.5 twisting marshall"}) {
-    const Parameters p = parameters_of(line);
-    EXPECT_TRUE(same(p, parameters_of(to_words(p)))) << to_words(p);
-    EXPECT_TRUE(same(p, unpack_parameters(pack(p)))) << to_words(p);
-  }
-}
-
-TEST(RoundTrip, OfStyleThroughNumbersIsExact)
-{
-  for (const char *line : {"plateau", "linear scale 0.1 exponent 1.1 limit_damping yes dtcheck off",
-                           "linear dtcheck error"}) {
-    const StyleArguments style = style_of(line);
-    const StyleArguments again = unpack_style(pack(style));
-    EXPECT_EQ(again.settings.law, style.settings.law);
-    EXPECT_EQ(again.settings.exponent, style.settings.exponent);
-    EXPECT_EQ(again.settings.scaled, style.settings.scaled);
-    EXPECT_EQ(again.settings.reference_diameter, style.settings.reference_diameter);
-    EXPECT_EQ(again.settings.limit_damping, style.settings.limit_damping);
-    EXPECT_EQ(again.time_step_check, style.time_step_check);
-  }
-}
-
-TEST(RoundTrip, OfAnotherFormatIsRefused)
-{
-  auto numbers = pack(style_of("linear"));
-  numbers[0] += 1.0;
-  EXPECT_EQ(refusal([&] {
-              unpack_style(numbers);
-            }),
-            "the restart file has format 3 of gran/eepa, this version reads 2");
-}
-
 TEST(RequireValid, RefusesWhatOtherSettingsForbid)
 {
   const Parameters p = parameters_of("1e4 1e4 0 0 0");
@@ -329,65 +242,6 @@ TEST(RequireValid, RefusesWhatOtherSettingsForbid)
   EXPECT_THROW(require_valid(p, style_of("plateau").settings, warnings), std::invalid_argument);
   EXPECT_THROW(require_valid(p, style_of("linear exponent 2").settings, warnings),
                std::invalid_argument);
-}
-
-LoadArguments load_of(const std::string &line, std::size_t *end = nullptr)
-{
-  LoadArguments load;
-  const std::size_t stop = parse_load(words(line), 0, {"contacts", "shear"}, load);
-  if (end) *end = stop;
-  return load;
-}
-
-TEST(LoadArguments, AreAForceOrAPressureAndAMass)
-{
-  const LoadArguments force = load_of("-5.5 mass 2");
-  EXPECT_FALSE(force.by_pressure);
-  EXPECT_EQ(force.force.value, -5.5);
-  EXPECT_EQ(force.force.variable, "");
-  EXPECT_EQ(force.mass, 2.0);
-  EXPECT_EQ(force.damping, 0.0);
-  EXPECT_EQ(force.lowest, -HUGE_VAL);
-  EXPECT_EQ(force.highest, HUGE_VAL);
-  const LoadArguments pressure =
-      load_of("pressure v_p limits -1 NULL damping 3 mass 1e-3 area v_a_2");
-  EXPECT_TRUE(pressure.by_pressure);
-  EXPECT_EQ(pressure.pressure.variable, "p");
-  EXPECT_EQ(pressure.area.variable, "a_2");
-  EXPECT_EQ(pressure.mass, 1e-3);
-  EXPECT_EQ(pressure.damping, 3.0);
-  EXPECT_EQ(pressure.lowest, -1.0);
-  EXPECT_EQ(pressure.highest, HUGE_VAL);
-  EXPECT_EQ(load_of("pressure 1e5 area 0.25 mass 1").area.value, 0.25);
-  EXPECT_EQ(load_of("1 mass 1 limits NULL 4").highest, 4.0);
-}
-
-TEST(LoadArguments, EndAtAKeywordOfAnother)
-{
-  std::size_t end = 0;
-  load_of("5 mass 2 damping 1", &end);
-  EXPECT_EQ(end, 5u);
-  load_of("5 mass 2 contacts damping 1", &end);
-  EXPECT_EQ(end, 3u);
-  EXPECT_NE(refusal([] {
-              load_of("contacts");
-            }),
-            "");
-  EXPECT_EQ(refusal([] {
-              load_of("5 contacts mass 2");
-            }),
-            "load: missing keyword mass");
-}
-
-TEST(LoadArguments, DoNotRememberAnEarlierCommand)
-{
-  LoadArguments load;
-  parse_load(words("pressure v_p area 2 mass 1 damping 2 limits 0 1"), 0, {}, load);
-  parse_load(words("5 mass 3"), 0, {}, load);
-  EXPECT_FALSE(load.by_pressure);
-  EXPECT_EQ(load.pressure.variable, "");
-  EXPECT_EQ(load.damping, 0.0);
-  EXPECT_EQ(load.highest, HUGE_VAL);
 }
 
 }    // namespace
