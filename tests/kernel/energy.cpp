@@ -271,6 +271,8 @@ TEST(Energy, ClosedLoopsOfShearAndRollingDissipate)
     Bodies b = any_bodies(random);
     b.overlap = 0.02 * std::min(b.R_i, b.R_j);
     const double period = 1e-3, amplitude = 0.3 * b.overlap;
+    const Coefficients c = resolve(m.p, m.law);
+    const double stiffness = contact_scale(c, b.size()).stiffness() * c.kt;
     const int steps = 1500;
     History history;
     double lost = 0.0, ledger = 0.0, scale = 0.0;
@@ -287,7 +289,12 @@ TEST(Energy, ClosedLoopsOfShearAndRollingDissipate)
       ledger += out.lost.total() - out.lost.hysteresis;
       ASSERT_GE(out.lost.normal_dashpot, 0.0);
       ASSERT_GE(out.lost.tangential_dashpot, -1e-12 * scale);
-      ASSERT_GE(out.lost.sliding, -1e-12 * scale);
+      // a slider that jumps beyond its bound in one step is booked by a trapezoid
+      const Contact contact = b.contact(period / steps);
+      const double moved =
+          period / steps *
+          tangential_velocity(contact, contact.velocity.dot(contact.normal)).norm();
+      ASSERT_GE(out.lost.sliding, -1e-12 * scale - 0.125 * stiffness * moved * moved);
       ASSERT_GE(out.lost.rolling, -1e-12 * scale);
       ASSERT_TRUE(relative.allFinite());
     }

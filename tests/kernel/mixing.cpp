@@ -65,6 +65,43 @@ TEST(Mixing, WithItselfIsIdentity)
   expect_same(mixture(p, p), p);
 }
 
+// Types that were given the same have the same coefficients as their mixture: they are evaluated together.
+TEST(Mixing, WithItselfIsIdentityToTheBit)
+{
+  Random random(73);
+  for (int k = 0; k < 2000; k++) {
+    const Parameters p = any_material(random).p;
+    ASSERT_EQ(pack(mixture(p, p)), pack(p)) << to_words(p);
+  }
+}
+
+TEST(Mixing, OfOtherTypesKeepsEqualNumbersToTheBit)
+{
+  Parameters a = full(), b = full();
+  b.k2 = 3333.3;
+  b.mu = 0.1;
+  Parameters m = mixture(a, b);
+  EXPECT_NE(m.k2, a.k2);
+  EXPECT_NE(m.mu, a.mu);
+  m.k2 = a.k2;
+  m.mu = a.mu;
+  EXPECT_EQ(pack(m), pack(a));
+}
+
+// numbers of alternatives that the mixture does not have stay at their defaults
+TEST(Mixing, LeavesUnreadNumbersAlone)
+{
+  Parameters a = full(), b = full();
+  b.rolling = RollingModel::none;
+  b.mu_r = b.kr = b.rolling_viscous = 0.0;
+  const Parameters m = mixture(a, b), defaults;
+  EXPECT_EQ(m.kr, defaults.kr);
+  EXPECT_EQ(m.mu_r, defaults.mu_r);
+  EXPECT_EQ(m.rolling_viscous, defaults.rolling_viscous);
+  EXPECT_EQ(m.kt, defaults.kt);
+  EXPECT_EQ(m.viscous_normal, defaults.viscous_normal);
+}
+
 TEST(Mixing, MeansOfTwo)
 {
   Parameters a = full(), b = full();

@@ -4,7 +4,10 @@
 
 #include <eepa/eepa.h>
 #include <eepa_commands/mixing.h>
+#include <eepa_commands/restart_numbers.h>
 #include <eepa_commands/validation.h>
+
+#include "../random_parameters.h"
 
 #include <gtest/gtest.h>
 
@@ -212,40 +215,20 @@ class Random {
 /// A material anywhere in the parameter space (stiffness over 12 decades).
 inline Material any_material(Random &random)
 {
-  const bool plateau = random.chance(0.4);
-  const double k1 = random.decades(-3.0, 9.0);
-  const double ratio = random.chance(0.2) ? 1.0 : 1.0 + random.decades(-3.0, 2.0);
-  const double exponent = plateau || random.chance(0.5) ? 1.0 : random.uniform(1.0, 2.0);
-  Material m =
-      material(plateau ? Law::plateau : Law::linear, k1, k1 * (plateau ? 2.0 * ratio : ratio),
-               random.chance(0.2) ? 0.0 : k1 * random.decades(-2.0, 1.0), 0.0, exponent);
-  const double length = 1e-4;
-  if (random.chance(0.5)) m.p.f0 = -k1 * std::pow(length, exponent) * random.decades(-4.0, 0.0);
-  m.p.mu = random.chance(0.1) ? 0.0 : random.uniform(0.0, 1.5);
-  if (exponent != 1.0 || random.chance(0.3)) {
-    m.p.kt_given = true;
-    m.p.kt = k1 * std::pow(length, exponent - 1.0) * random.uniform(0.05, 1.0);
-  }
-  if (random.chance(0.6)) {
-    m.p.restitution = random.chance(0.1) ? 0.0
-        : random.chance(0.1)             ? 1.0
-                                         : random.uniform(0.0, 1.0);
-  } else {
-    m.p.damping = Damping::viscous;
-    m.p.viscous_normal = std::sqrt(k1) * random.decades(-6.0, -3.0);
-    m.p.viscous_tangential = std::sqrt(k1) * random.decades(-6.0, -3.0);
-  }
-  const double rolling = random.uniform(0.0, 3.0);
-  if (rolling < 2.0) {
-    m.p.rolling = rolling < 1.0 ? RollingModel::constant : RollingModel::sds;
-    m.p.mu_r = random.uniform(0.0, 0.5);
-    m.p.kr = k1 * std::pow(length, exponent - 1.0) * random.uniform(0.05, 1.0);
-    m.p.rolling_viscous = std::sqrt(k1) * random.decades(-7.0, -4.0);
-  }
-  // without another random number: those after it are as they were
-  if (std::fmod(1e3 * m.p.mu, 1.0) < 0.5) m.p.twisting = TwistingModel::marshall;
+  Spread spread{-3.0, 9.0};
+  spread.high = 1.0;
+  spread.overlap = 1e-4;
+  spread.mass = 1e-8;
+  spread.largest_ratio = 1.5;
+  Material m;
+  m.law.law = static_cast<Law>(static_cast<int>(random.uniform(0.0, law_count)));
+  if (entry_of(m.law.law).has_exponent && random.chance(0.5))
+    m.law.exponent = random.uniform(1.0, 2.0);
   m.law.limit_damping = random.chance(0.3);
   if (random.chance(0.5)) scale_with_diameter(m, random.decades(-4.0, -2.0));
+  const auto draw = [&random] { return random.uniform(0.0, 1.0); };
+  draw_choices(draw, m.law, m.p);
+  draw_numbers(draw, spread, m.law, m.p);
   return m;
 }
 
