@@ -228,7 +228,7 @@ void FixWallGranEepa::restart(char *buf)
 }
 
 /// Stops where the histories belong to other faces or another layout. Warns where law or exponent
-/// differ, which read histories differently, and where a plane's coordinate differs: the file's stays.
+/// differ, which read histories differently, or a plane's coordinate: that of the file is kept.
 void FixWallGranEepa::require_same_wall(const std::vector<double> &state) const
 {
   const std::string was = shape_name(static_cast<int>(state[KIND]), static_cast<int>(state[SIDES])),
