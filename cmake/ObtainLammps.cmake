@@ -1,4 +1,4 @@
-# LAMMPS itself: its source, and a stock shared library built from it.
+# Obtains LAMMPS: its source, and a stock shared library built from it.
 #
 #   LAMMPS_SOURCE_DIR      a LAMMPS source tree (the folder with cmake/ and src/); used as it is
 #   EEPA_LAMMPS_RELEASE    otherwise: the release to obtain, 4Feb2025 (default) or 4Jul2026
@@ -20,8 +20,8 @@
 #
 # LAMMPS is built while configuring, not as a step of the build: its compile definitions,
 # which the package must share, are known only after LAMMPS has been configured, and a cached
-# library must cost later builds nothing. Source and library lie outside the build folder,
-# so that deleting that folder costs seconds and not minutes.
+# library must cost later builds nothing. Source and library are kept outside the build folder,
+# so that they survive its deletion.
 
 include_guard(GLOBAL)
 include(ProcessorCount)
@@ -50,11 +50,11 @@ set(_eepa_own_source_hint
   "with -D LAMMPS_SOURCE_DIR=...")
 string(CONCAT _eepa_own_source_hint ${_eepa_own_source_hint})
 
-# Puts the source of EEPA_LAMMPS_RELEASE at `tree`, complete or not at all.
+# Puts the source of EEPA_LAMMPS_RELEASE at `tree`, either complete or not at all.
 function(_eepa_fetch_source tree)
   list(GET _eepa_debian_${EEPA_LAMMPS_RELEASE} 0 suite)
   list(GET _eepa_debian_${EEPA_LAMMPS_RELEASE} 1 version)
-  # What a killed fetch could not clean up. Nobody else is fetching: the caller holds the lock.
+  # Removes what a killed fetch left behind. No other fetch is running: the caller holds the lock.
   get_filename_component(parent "${tree}" DIRECTORY)
   get_filename_component(name "${tree}" NAME)
   file(GLOB stale "${parent}/.fetch.${name}.*")
@@ -84,8 +84,8 @@ function(_eepa_fetch_source tree)
     endif()
   endif()
 
-  # Written for systems without Debian's archive; it could not be tried where this was developed
-  # (no such network there), and nothing but HTTPS vouches for what it downloads.
+  # For systems without Debian's archive. It could not be tried where this was developed (no such
+  # network there), and only HTTPS protects the download.
   set(url "https://github.com/lammps/lammps/archive/refs/tags/patch_${EEPA_LAMMPS_RELEASE}.tar.gz")
   set(work "${parent}/.fetch.${name}.github")
   message(STATUS "LAMMPS ${EEPA_LAMMPS_RELEASE}: downloading ${url}")
@@ -112,7 +112,7 @@ function(_eepa_fetch_source tree)
     "${_eepa_own_source_hint}")
 endfunction()
 
-# A make or ninja around this configure would hand its job server and its settings down.
+# A make or ninja that runs this configure would pass its job server and settings on.
 set(_eepa_clean_env ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS --unset=MAKELEVEL --unset=NINJA_STATUS)
 
 # LAMMPS's packages that granular models use: clumps and bonds (RIGID, MOLECULE, BPM), fluid drag and servo
@@ -120,9 +120,9 @@ set(_eepa_clean_env ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS --unset=MAKELEVEL 
 # (EXTRA-DUMP).
 set(_eepa_packages GRANULAR RIGID MOLECULE BPM MISC EXTRA-FIX EXTRA-COMPUTE EXTRA-DUMP OPENMP PLUGIN)
 
-# A quarter of a granular run is LAMMPS's own: neighbour lists, communication, integration. Products and sums stay
-# rounded one by one, for else the results of a run would depend on whether the processor has a fused instruction.
-# The user's own flags come last and win.
+# A quarter of a granular run is spent in LAMMPS itself: neighbour lists, communication, integration. Products and
+# sums are rounded separately; otherwise the results of a run would depend on whether the processor has a fused
+# instruction. The user's own flags come last and win.
 string(STRIP "${eepa_arch_flag} -ffp-contract=off $ENV{CXXFLAGS}" _eepa_flags)
 
 # What `native` means on this machine: a cache may be shared by machines with different processors.
@@ -209,8 +209,8 @@ function(_eepa_build_lammps source build)
   endforeach()
 endfunction()
 
-# Until the calling function is left, however it is left: nobody else may work on what lies at `path`.
-# A macro, since a function of its own would give the lock up at once.
+# Locks `path` against other configurations until the calling function ends, in whatever way it ends.
+# This is a macro, because a function would release the lock at its own end.
 macro(_eepa_lock path)
   get_filename_component(parent "${path}" DIRECTORY)
   file(MAKE_DIRECTORY "${parent}")
@@ -240,7 +240,7 @@ function(_eepa_obtain_lammps)
     set(name user)
   else()
     set(source "${cache}/source/lammps-${EEPA_LAMMPS_RELEASE}")
-    # What is complete needs no lock, so that a cache may be shared and read-only.
+    # A complete source needs no lock, so that a cache may be shared and read-only.
     if(NOT EXISTS "${source}/src/version.h")
       _eepa_lock("${source}")
       if(NOT EXISTS "${source}/src/version.h")
@@ -263,7 +263,7 @@ function(_eepa_obtain_lammps)
     message(FATAL_ERROR "LAMMPS ${version} in ${source} is too old: 4 Feb 2025 is the oldest that will do")
   endif()
 
-  # Whatever could make a library differ, so that two configurations never share one by mistake.
+  # The key has everything that could make a library differ, so that configurations never share one by mistake.
   string(SHA256 key "${source}|${version}|${CMAKE_CXX_COMPILER}|${CMAKE_CXX_COMPILER_ID}|\
 ${CMAKE_CXX_COMPILER_VERSION}|${CMAKE_GENERATOR}|${MPI_CXX_LIBRARIES}|${PNG_LIBRARIES}|${_eepa_vtk}|\
 ${EEPA_LAMMPS_ARGS}|${_eepa_flags}|${_eepa_machine}|$ENV{LDFLAGS}|recipe 2")
@@ -286,8 +286,8 @@ ${EEPA_LAMMPS_ARGS}|${_eepa_flags}|${_eepa_machine}|$ENV{LDFLAGS}|recipe 2")
   endif()
   message(STATUS "LAMMPS ${version}: ${library}")
 
-  # From the command that compiled LAMMPS's main class, because it tells what LAMMPS really used
-  # and the exported target does not: LAMMPS keeps most of its definitions private.
+  # Definitions are taken from the command that compiled LAMMPS's main class. The exported target does not
+  # have them all: LAMMPS keeps most of its definitions private.
   file(STRINGS "${build}/compile_commands.json" command REGEX "\"command\": .*/src/lammps\\.cpp\"")
   if(NOT command)
     message(FATAL_ERROR "${build}/compile_commands.json says nothing about lammps.cpp; "
@@ -325,7 +325,7 @@ endfunction()
 
 set(_eepa_months Jan Feb Mar Apr May Jun Jul Aug Sep Oct Nov Dec)
 
-# Without Open MPI's old C++ interface: its symbols would have to be in whatever loads the plugin.
+# Without Open MPI's old C++ interface, whose symbols every program that loads the plugin would need.
 set(MPI_CXX_SKIP_MPICXX TRUE)
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(OpenMP REQUIRED COMPONENTS CXX)

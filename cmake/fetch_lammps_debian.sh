@@ -24,7 +24,7 @@ trap 'exit 1' HUP INT TERM
 mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/unpacked"
 
 archive_of() {
-    # "Debian" as the label too: the security archive has the same origin but not this package.
+    # The label must be "Debian", too: the security archive has the same origin but not this package.
     # $(...) is apt's own syntax here, not the shell's.
     # shellcheck disable=SC2016
     apt-get "$@" indextargets --format '$(ORIGIN)|$(LABEL)|$(COMPONENT)|$(REPO_URI)|$(SIGNED_BY)' \
@@ -106,5 +106,5 @@ if [ -z "$tree" ]; then
     exit 1
 fi
 chmod 755 "$tree"
-# -T: into its place or not at all, never into a folder that has come to be there meanwhile.
+# -T: never move into a folder that another process has made at this path meanwhile.
 mv -T "$tree" "$target"

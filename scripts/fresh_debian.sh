@@ -15,7 +15,7 @@ suite=$1 folder=$2
 shift 2
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-# Only a system that is complete is used again.
+# Only a complete system is reused.
 if [ ! -e "$folder/.complete" ]; then
     debootstrap --variant=minbase "$suite" "$folder" ${MIRROR:+"$MIRROR"}
     touch "$folder/.complete"
@@ -23,8 +23,8 @@ fi
 rm -rf "$folder/root/project"
 git clone -q "$project" "$folder/root/project"
 
-# In a mount namespace of its own, so that nothing stays mounted, however this ends. MPI's ranks share memory
-# through /dev/shm.
+# A private mount namespace, so that nothing stays mounted, however this ends. MPI's ranks share memory through
+# /dev/shm.
 export folder
 exec unshare --mount bash -c '
     mount -t proc proc "$folder/proc"
