@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // Dashpots (contract, section 1): f_nd = -B_n v_n with
 //   B_n = sqrt(4 m* k1/(1 + (pi/ln e)^2)), B_t the same with kt; e = 1 none, e = 0 critical.
-// For n != 1 the loading branch's tangent n k1 delta^(n-1) takes the place of k1.
+// For n != 1 the tangent n k1 delta^(n-1) of the loading branch replaces k1.
 
 #include "support.h"
 
@@ -51,7 +51,7 @@ TEST(Damping, NormalAndTangentialDashpotsOfARestitution)
   }
 }
 
-// B as given: d^2
+// given dashpots scale with d^2
 TEST(Damping, ViscousCoefficientsAsGiven)
 {
   for (double n : {1.0, 1.5}) {
@@ -126,7 +126,7 @@ double rebound(const Material &m, double speed, double mass, int steps_per_perio
   return 0.0;
 }
 
-// the linear spring-dashpot gives back the restitution that it was asked for
+// the linear spring-dashpot has the restitution that its dashpot was computed from
 TEST(Damping, HeadOnImpactGivesTheRestitution)
 {
   for (double e : {0.05, 0.2, 0.5, 0.9, 1.0}) {
@@ -136,7 +136,7 @@ TEST(Damping, HeadOnImpactGivesTheRestitution)
   }
 }
 
-// critical: it never comes back
+// critical damping: the particle never comes back
 TEST(Damping, CriticalImpactDoesNotRebound)
 {
   Material m = material(Law::linear, 1e3, 1e3, 0.0);

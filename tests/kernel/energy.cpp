@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-only
-// Stored elastic energy, the work over closed cycles, and where energy goes (contract, sections 1, 3).
+// SPDX-License-Identifier: GPL-2.0-only Stored elastic energy, work over closed cycles, dissipation
+// by mechanism (contract, sections 1, 3).
 
 #include "support.h"
 
@@ -37,7 +37,7 @@ std::vector<Material> materials()
           luding(9e3, 0.0, 0.0, 1.1 * top)};
 }
 
-// Its slope is f_hys wherever the history is not changing, by central differences along the path
+// The slope of the stored energy is f_hys while the history is constant, by central differences
 TEST(Energy, SlopeIsTheForceAtFrozenHistory)
 {
   for (const Material &m : materials()) {
@@ -180,13 +180,13 @@ TEST(Energy, WorkIsStoredOrBookedAsLost)
     const double left = path.energy(x);
     if (m.law.law == Law::plateau)
       EXPECT_NEAR(path.opening_loss(), left, 1e-6 * scale);
-    else    // the adhesive branch has booked all: nothing is stored, nothing is left to lose
+    else    // the adhesive branch has booked the whole loss, and nothing is stored
       EXPECT_NEAR(path.opening_loss(), left, 1e-9 * scale);
   }
 }
 
-// linear: a contact that opens in one long stride from any point loses what it stores there, and
-// the adhesive branch's work is booked by the same number as if it had walked it
+// linear: a contact that opens in one long step from any point loses what it stores there, and the
+// work of the adhesive branch is booked as if it had followed the branch in small steps
 TEST(Energy, OpeningLossOfTheLinearLawIsTheWorkOfItsAdhesiveBranch)
 {
   for (const Material &m : materials()) {
@@ -207,8 +207,8 @@ TEST(Energy, OpeningLossOfTheLinearLawIsTheWorkOfItsAdhesiveBranch)
   }
 }
 
-// Dissipation over closed cycles is never negative, the plateau law with f0 excepted; there by at
-// most |f0| times the overlap at which the plateau begins, delta_p - k_adh delta_p/k2
+// Dissipation over closed cycles is never negative, except for the plateau law with f0: there it is
+// at least -|f0| times the overlap at which the plateau begins, delta_p - k_adh delta_p/k2
 TEST(Energy, ClosedCyclesDissipate)
 {
   Random random(52);
@@ -239,7 +239,7 @@ TEST(Energy, ClosedCyclesDissipate)
     ASSERT_GE(work, -created - 1e-3 * peak * reach) << "k2/k1 " << m.p.k2 / m.p.k1;
     if (m.p.f0 != 0.0 && m.law.law == Law::plateau) worst = std::min(worst, work / created);
   }
-  EXPECT_LT(worst, -0.1);    // it does happen
+  EXPECT_LT(worst, -0.1);    // the bound is approached
   EXPECT_GE(worst, -1.01);
 }
 
@@ -356,9 +356,9 @@ TEST(Energy, LedgerOfAnImpactCloses)
   }
 }
 
-/// What the ledger misses in an oblique impact of a spinning sphere on a wall that velocity Verlet
-/// integrates with `steps` steps a contact, relative to its kinetic energy: mean over starts within
-/// a step, for a contact may form and open anywhere in one.
+/// Error of the ledger over an oblique impact of a spinning sphere on a wall, relative to its
+/// kinetic energy, integrated by velocity Verlet with `steps` steps a contact. The mean over
+/// several starts is taken, because a contact may form and open anywhere within a step.
 double missed_in_impact(const Material &m, double tangential_speed, int steps)
 {
   constexpr int starts = 64;
@@ -412,8 +412,8 @@ double missed_in_impact(const Material &m, double tangential_speed, int steps)
   return std::fabs(sum) / starts / start;
 }
 
-// Dashpots that sliders cut and let go, that fade in (n != 1), that are limited, rolling by either
-// model: half the step misses a quarter.
+// Dashpots that sliders cut and release, that grow from 0 (n != 1), that are limited, both rolling
+// models: at half the step the error is a quarter.
 TEST(Energy, LedgerOfObliqueImpactsIsOfSecondOrder)
 {
   std::vector<Material> all;
@@ -460,8 +460,9 @@ TEST(Energy, LedgerOfObliqueImpactsIsOfSecondOrder)
   std::printf("    %zu impacts, worst %.2g\n", 2 * all.size(), worst);
 }
 
-// Sliding is what the trapezoid work of the two end forces leaves over the change of what the spring
-// holds: k/2 (b + a).d - k/2 (a.a - b.b), b and a the spring before and after, d the slip of the step
+// Loss by sliding is the trapezoid work of the two end forces less the change of the spring's
+// energy: k/2 (b + a).d - k/2 (a.a - b.b), b and a the spring before and after, d the displacement
+// of the step
 TEST(Energy, SlidingOfOneStepIsItsTrapezoidWorkLessTheStoredChange)
 {
   Material m = material(Law::linear, 1e3, 2e3, 0.0);
@@ -542,7 +543,7 @@ TEST(Energy, DashpotsOfOneStep)
   EXPECT_NEAR(second.lost.tangential_dashpot, 0.02 * 0.01 * 1e-6, 1e-22);
 }
 
-// A spring that holds its dashpot back lets it go beyond the bound, in the step before as well.
+// Beside a spring that balances it a dashpot may exceed the bound, in the step before as well.
 TEST(Energy, DashpotHeldByASpringIsNotCutAtTheBound)
 {
   Material m = material(Law::linear, 1e3, 2e3, 0.0);
@@ -577,7 +578,7 @@ TEST(Energy, DashpotHeldByASpringIsNotCutAtTheBound)
   EXPECT_NEAR(out.lost.rolling, 0.02 * speed * speed * dt, 1e-12 * dt);
 }
 
-// a contact that is there at the first step was not loaded up to its overlap; one that forms was
+// a contact that exists before the first step was not loaded up to its overlap; one that forms was
 TEST(Energy, InitialOverlapIsNotBookedAsLost)
 {
   for (const Material &m : materials()) {
@@ -594,13 +595,13 @@ TEST(Energy, InitialOverlapIsNotBookedAsLost)
     h = History();
     const double all = path.loss(0.0, 1e-5);
     EXPECT_NEAR(evaluate(m, b, 1e-6, h).lost.hysteresis, all, 1e-12 * all);
-    b.v_i = Vec3(2.0, 0.0, 0.0);    // it was deeper, but nobody loaded it up to there
+    b.v_i = Vec3(2.0, 0.0, 0.0);    // it was deeper, but was not loaded up to that overlap
     h = History();
     EXPECT_EQ(evaluate(m, b, 1e-6, h).lost.hysteresis, 0.0);
   }
 }
 
-// what a contact still holds when it opens is booked
+// energy that a contact still stores when it opens is booked as lost
 TEST(Energy, OpeningBooksWhatTheSpringsHold)
 {
   Material m = material(Law::plateau, 1e3, 2e3, 5e2, -1e-4);
@@ -626,7 +627,7 @@ TEST(Energy, OpeningBooksWhatTheSpringsHold)
   const double B = restitution_damping(0.5) * std::sqrt(effective_mass(b.m_i, b.m_j) * 1e3);
   EXPECT_NEAR(lost.normal_dashpot, 0.25 * B * 0.09 * 1e-6, 1e-20);
   EXPECT_EQ(lost.tangential_dashpot, 0.0);
-  // springs do the trapezoid's work while they are let go
+  // released springs do the trapezoid work of their last step
   b.v_i = Vec3(0.3, 0.1, 0.0);
   b.w_i = Vec3(0.0, 0.0, 70.0);
   const Contact moving = b.contact();
@@ -637,7 +638,7 @@ TEST(Energy, OpeningBooksWhatTheSpringsHold)
   EXPECT_DOUBLE_EQ(released.sliding, 0.5 * c.kt * xi.dot(xi + slip));
   const double rolled = 1e-7 * moving.effective_radius * 70.0;
   EXPECT_DOUBLE_EQ(released.rolling, 0.5 * 300.0 * 1e-7 * (1e-7 + rolled));
-  // but give nothing back that was booked before
+  // but a loss that was booked is never taken back
   h.rolling_spring = -0.5 * Vec3(0.0, 0.0, rolled);
   EXPECT_EQ(
       (dissipation_of_opening<ContactLaw<PlateauLaw, RollingSds>>(c, moving, 1e-7, h)).rolling,

@@ -110,7 +110,7 @@ TEST(Friction, SpringKeepsItsLengthWhenThePlaneTurns)
   EXPECT_EQ(rotate_into_plane(unchanged, Vec3::UnitZ()), unchanged);
 }
 
-// one step: rotated first, then wound in the new plane, then bounded
+// in one step a spring is rotated first, then wound in the new plane, then bounded
 TEST(Friction, SpringIsRotatedBeforeItIsWound)
 {
   Bodies b;
@@ -154,7 +154,7 @@ TEST(Friction, SlidingForceLiesOnTheBoundAndTheNextStepStartsThere)
       ASSERT_EQ(next.tangential_force.norm(), 0.0);
       continue;
     }
-    // but for the dashpot of a call without time, which sees the normal of now
+    // except the dashpot of a call without time, which sees the present normal
     ASSERT_NEAR(next.tangential_force.norm(), out.friction_bound, 1e-4 * out.friction_bound);
     if (history.tangential_spring.norm() == 0.0) continue;    // the dashpot alone slides
     springs++;
@@ -177,7 +177,7 @@ TEST(Friction, ForceExactlyOnTheBoundDoesNotSlide)
   EXPECT_EQ(spring, Vec3(0.125, 0.0, 0.0));
 }
 
-// the dashpot within the bound: the spring makes up the rest; beyond it: no spring is left
+// a dashpot within the bound leaves the rest to the spring; one beyond the bound leaves no spring
 TEST(Friction, SpringAfterSlidingBesideTheDashpot)
 {
   const Vec3 v(1.0, 0.0, 0.0);
@@ -209,7 +209,7 @@ TEST(Friction, WithoutTangentialStiffnessTheDashpotAloneIsBounded)
   EXPECT_EQ(f.force, Vec3(-1.0, 0.0, 0.0));
 }
 
-// the bound has f_hys, never the dashpot
+// the bound depends on f_hys, never on the dashpot
 TEST(Friction, NormalVelocityDoesNotChangeTheBound)
 {
   Material m = sticky();

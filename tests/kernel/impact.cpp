@@ -64,7 +64,7 @@ Rebound impact(const Material &m, double speed, double mass, int steps)
     v -= 0.5 * dt * force / mass;
     const double next = x + dt * v;
     if (next <= 0.0) {
-      // the speed at which delta = 0 was passed, with the force of that stretch
+      // the speed at delta = 0, interpolated with the force of the last step
       const double t = std::min(dt, x / -v);
       return {false, -v + 0.5 * t * force / mass, largest};
     }
@@ -108,7 +108,7 @@ TEST(Impact, LinearWithPullOffDependsOnSpeedAndSticksWhenSlow)
 {
   const Material m = material(Law::linear, 1e3, 2e3, 5e2, -0.002);
   for (double speed : {0.01, 0.03, 0.07, 0.1, 0.3, 1.0}) compare(m, speed, 1e-4);
-  // f0 alone takes nothing from an elastic contact: it is a potential
+  // f0 alone dissipates nothing in an elastic contact: it has a potential
   const Material elastic = material(Law::linear, 1e3, 1e3, 0.0, -0.002);
   compare(elastic, 0.1, 1e-4);
   EXPECT_NEAR(restitution_squared(elastic, 5e-9), 1.0, 1e-12);

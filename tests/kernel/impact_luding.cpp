@@ -76,7 +76,7 @@ Rebound impact(const Material &m, double speed, double largest, int steps)
     v -= 0.5 * dt * force / mass;
     const double next = x + dt * v;
     if (next <= 0.0) {
-      // the speed at which delta = 0 was passed, with the force of that stretch
+      // the speed at delta = 0, interpolated with the force of the last step
       const double t = std::min(dt, x / -v);
       result.speed = -v + 0.5 * t * force / mass;
       return result;

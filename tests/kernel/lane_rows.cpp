@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: GPL-2.0-only
-// What the laws choose with, for a double and in each lane alone, and the way between a driver's
-// rows and lanes. Every lane has numbers of its own, and every row neighbours that must stay.
+// SPDX-License-Identifier: GPL-2.0-only select(), any(), min, max and pow for a double and in each
+// lane, and conversion between a driver's rows and lanes. Every lane has different numbers, and
+// every row has neighbours that must not change.
 
 #include "support.h"
 
@@ -25,7 +25,8 @@ Lanes::mask_type only(int lane)
   return numbers(0.0) == Lanes(static_cast<double>(lane));
 }
 
-/// A row for each lane, not in the lanes' order, and others between them; all numbers differ.
+/// A row for each lane, not in the order of the lanes, with other rows between them; all numbers
+/// differ.
 class Memory {
  public:
   static constexpr int stride = 11, first = 2;
@@ -159,7 +160,7 @@ TEST(LaneRows, AddSubtractAndStoreTheRowOfTheirLane)
   }
 }
 
-// as LAMMPS hands it over when i and j change places: every sign turned
+// a row as LAMMPS leaves it when i and j change places: every sign changed
 template <class Layout> void expect_history_of_each_lane(double sign)
 {
   Memory memory;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Contacts side by side are the same contacts: every lane gives the bits that a double gives.
+// Contacts evaluated side by side have the results of single ones: every lane gives the bits of a
+// double.
 
 #include <eepa/dispatch.h>
 
@@ -160,7 +161,7 @@ TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
         history.rolling_spring = generator.vector(0.01);
         history.twisting_spring = generator.between(-0.01, 0.01);
       }
-      // through a driver's flat arrays, where LAMMPS may have turned every sign
+      // through a driver's flat arrays, where LAMMPS may have changed every sign
       std::vector<double> flat(width * ContactLaw::history_size);
       LanePointers<double> at;
       for (int l = 0; l < width; l++) {

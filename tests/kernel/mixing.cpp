@@ -65,7 +65,8 @@ TEST(Mixing, WithItselfIsIdentity)
   expect_same(mixture(p, p), p);
 }
 
-// Types that were given the same have the same coefficients as their mixture: they are evaluated together.
+// Types that were given the same have the same coefficients as their mixture: they are evaluated
+// together.
 TEST(Mixing, WithItselfIsIdentityToTheBit)
 {
   Random random(73);
@@ -171,7 +172,8 @@ TEST(Mixing, IsSymmetric)
   }
 }
 
-// what holds for both holds for the mixture: k2 >= k1, and k2 >= 2 k1, exactly, whatever rounding
+// conditions that hold for both types hold for the mixture, k2 >= k1 and k2 >= 2 k1, exactly in
+// spite of rounding
 TEST(Mixing, KeepsTheOrderOfStiffnesses)
 {
   Random random(72);

@@ -62,7 +62,7 @@ TEST(NormalLinear, AdhesiveBranchBeginsAtItsBoundary)
   EXPECT_NEAR(path.at(edge * (1.0 + 1e-12)).force, path.at(edge).force, 1.01 * apart);
 }
 
-// held at any overlap of the adhesive branch, a contact does not flicker to another
+// at any constant overlap of the adhesive branch a contact stays on that branch
 TEST(NormalLinear, AdhesiveBranchHoldsAtRest)
 {
   Random random(57);

@@ -53,7 +53,7 @@ TEST(NormalLuding, LoadsAlongK1UpToTheLimit)
   }
 }
 
-// k2 is reached in proportion to the overlap; reloading goes the same way to where it began
+// the unloading stiffness grows in proportion to the overlap; reloading follows the unloading line back
 TEST(NormalLuding, UnloadingStiffensInProportionToTheRememberedOverlap)
 {
   for (double k2_ : {1.25 * k1, 2.0 * k1, 20.0 * k1}) {
@@ -90,7 +90,7 @@ TEST(NormalLuding, IsElasticBeyondTheLimit)
     EXPECT_EQ(f.max_overlap, limit);
     EXPECT_EQ(path.loss(before, f.max_overlap), 0.0);
   }
-  // and below it the same k2 line goes on
+  // and below it the same k2 line continues
   const NormalForce f = path.to(0.75 * limit);
   EXPECT_EQ(f.branch, Branch::unloading);
   EXPECT_NEAR(f.force, f0 + k1 * limit - k2 * 0.25 * limit, 1e-12);
@@ -165,7 +165,7 @@ TEST(NormalLuding, AdhesiveBranchLowersTheMemoryAndReloadsWithItsStiffness)
         EXPECT_LT(low.max_overlap, last);
         EXPECT_GT(low.max_overlap, down);
         EXPECT_NEAR(onset(low.max_overlap, k2_, k_adh_), down, 1e-13 * down);
-        // a small way up its k2 line, and down again to the same place
+        // a little up its k2 line, and down again to the same overlap
         const double up = down + 0.01 * (low.max_overlap - down);
         const NormalForce high = path.to(up);
         EXPECT_EQ(high.branch, Branch::unloading);
@@ -174,7 +174,7 @@ TEST(NormalLuding, AdhesiveBranchLowersTheMemoryAndReloadsWithItsStiffness)
         EXPECT_EQ(high.max_overlap, low.max_overlap);
         last = low.max_overlap;
       }
-      // all the way up it meets the loading branch at m
+      // further up it meets the loading branch at m
       EXPECT_NEAR(path.at(std::nextafter(last, 0.0)).force, f0 + k1 * last, 1e-12);
       EXPECT_EQ(path.to(last).branch, Branch::loading);
     }

@@ -55,7 +55,7 @@ TEST(NormalPlateau, PullsConstantlyOnThePlateauWithoutF0)
     EXPECT_EQ(f.force, -k_adh * plastic);
     EXPECT_EQ(f.max_overlap, top);    // the plateau forgets nothing
   }
-  // and the way back is the way there
+  // reloading follows the same line as unloading
   EXPECT_EQ(path.to(0.75 * top).force, f0 + k2 * (0.75 * top - plastic));
 }
 
@@ -137,7 +137,7 @@ TEST(NormalPlateau, FrictionBoundOnEachBranch)
   EXPECT_DOUBLE_EQ(path.bound(f), -f0);    // on the plateau the bracket vanishes
 }
 
-// delta = delta_max is `loading` whatever rounding says
+// delta = delta_max is `loading` in spite of rounding
 TEST(NormalPlateau, TheLargestOverlapLoadsWhateverRounding)
 {
   Random random(11);

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-only
-// The tables of tests/oracle (the law written a second time, in Python, from the contract alone)
-// replayed through the kernel, to 1e-12 relative.
+// SPDX-License-Identifier: GPL-2.0-only Replays the tables of tests/oracle (a second implementation
+// of the law, in Python, from the contract alone) through the kernel, to 1e-12 relative.
 
 #include "support.h"
 
@@ -112,7 +111,7 @@ TEST(Oracle, NormalPaths)
     const Material m = table.material();
     const double R_i = table.number("R_i"), R_j = table.number("R_j");
     NormalPath path(m, R_i + R_j, effective_radius(R_i, R_j));
-    // the terms that a force is the difference of, at their largest
+    // the largest terms of which a force is the difference
     double force_scale = 0.0, energy_scale = 0.0, last = 0.0;
     for (const auto &row : table.rows) {
       const double overlap = std::strtod(row[0].c_str(), nullptr);

@@ -29,7 +29,7 @@ TEST(Properties, FiniteAndBoundedByCoulomb)
     History history;
     for (int step = 0; step < 20; step++) {
       any_motion(random, b);
-      // up to half of the smaller radius, down to nothing
+      // up to half of the smaller radius, down to 0
       b.overlap = std::min(b.R_i, b.R_j) * random.decades(-9.0, -0.3);
       const double before = history.max_overlap;
       const Outcome out = evaluate(m, b, random.decades(-9.0, -5.0), history);
@@ -69,7 +69,7 @@ TEST(Properties, FiniteAndBoundedByCoulomb)
   EXPECT_GT(sliding, 1000);
 }
 
-// a dashpot takes energy, whatever the rest does
+// a dashpot dissipates energy in every state of the other parts
 TEST(Properties, DashpotsOpposeTheMotion)
 {
   Random random(93);
@@ -80,7 +80,7 @@ TEST(Properties, DashpotsOpposeTheMotion)
     b.overlap = 0.01 * std::min(b.R_i, b.R_j);
     const Outcome out = evaluate(m, b);
     ASSERT_LE((out.normal_force - out.hysteretic_force) * (b.v_i - b.v_j).dot(b.u), 0.0);
-    // a virgin spring of no length: the tangential force is the dashpot's
+    // the spring is empty: the tangential force is that of the dashpot
     const Contact c = b.contact();
     ASSERT_LE(out.tangential_force.dot(tangential_velocity(c, c.velocity.dot(c.normal))), 0.0);
   }
@@ -119,8 +119,8 @@ TEST(Properties, ContinuousWherePromised)
   }
 }
 
-// steps of any length: the force is a function of overlap and history, so a longer stride along the
-// same branch ends in the same force
+// the force is a function of overlap and history, so a longer step along the same branch ends in
+// the same force
 TEST(Properties, LongAndShortStridesEndAlike)
 {
   Random random(95);

@@ -72,7 +72,7 @@ TEST(Rolling, ConstantTorqueIsSmoothedBySlowRolling)
   }
 }
 
-// a particle at rest, or spun up a little, comes to rest: neither driven nor chattering
+// a particle at rest, or with little spin, comes to rest: the torque neither drives it nor chatters
 TEST(Rolling, ConstantTorqueStopsAParticleWithoutOvershoot)
 {
   Material m = roller(RollingModel::constant);
@@ -164,11 +164,11 @@ TEST(Rolling, SdsSliderIsBoundedAndItsSpringReset)
   const double limit = 0.05 * std::fabs(out.hysteretic_force);
   EXPECT_NEAR(out.rolling_torque.norm(), limit * R, 1e-14 * limit * R);
   EXPECT_LT(out.rolling_torque.dot(b.w_i), 0.0);
-  // spring and dashpot make up the bound
+  // spring and dashpot together are at the bound
   const Vec3 v = R * b.w_i;
   const Vec3 f = -200.0 * history.rolling_spring - 1e-4 * v;
   EXPECT_NEAR(f.norm(), limit, 1e-12 * limit);
-  // rolled back by the spring's stretch, it is free of force
+  // rolled back by the length of the spring, the contact has no rolling torque
   const double stretch = history.rolling_spring.norm();
   b.w_i = -b.w_i;
   const double dt = stretch / v.norm();

@@ -53,7 +53,7 @@ double worst_deviation(double s, double exponent, unsigned seed)
       EXPECT_EQ(x.branch, y.branch);
       EXPECT_EQ(x.sliding, y.sliding);
       const double f = s * s, t = f * s;
-      // next to delta_p force and energy are small differences of what they are at delta_max
+      // next to delta_p force and energy are small differences of values at delta_max
       const double peak = s == 2.0
           ? 0.0
           : NormalPath(m, s * b.size()).at(large.max_overlap).force * m.p.k2 / m.p.k1;

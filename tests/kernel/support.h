@@ -92,14 +92,14 @@ struct Bodies {
   double arm_j() const { return wall() ? 0.0 : lever_arm(R_j, overlap); }
 };
 
-/// What a driver makes of a Response.
+/// Result of a driver for one contact.
 struct Outcome : Response, Wrench<double> {
   StoredEnergy energy;
   Dissipation lost;
 };
 
-/// One step of a contact by the law of its material. In a file of its own: every law that exists is
-/// compiled there, once.
+/// One step of a contact by the law of its material. It is defined in support.cpp, where every law
+/// is compiled once.
 Outcome evaluate(const Material &m, const Bodies &b, double time_step, History &history);
 
 inline Outcome evaluate(const Material &m, const Bodies &b, double time_step = 0.0)
@@ -130,7 +130,7 @@ class NormalPath {
     max_overlap = f.max_overlap;
     return f;
   }
-  /// the same without remembering
+  /// the same without a change of the history
   NormalForce at(double overlap) const
   {
     return with([&](auto normal) {

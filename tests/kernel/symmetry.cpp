@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-only
-// i and j exchanged, everything rotated, everything moving: the law must not notice.
+// Results must not depend on the order of i and j, on rotation, or on a common velocity.
 
 #include "support.h"
 
 namespace symmetry_test {
 using namespace eepa_test;
 
-/// The driver's view: a flat array that LAMMPS hands over with every sign turned.
+/// A driver's flat array, in which LAMMPS has changed every sign.
 History swapped(const History &history)
 {
   double flat[8];
@@ -64,7 +64,8 @@ TEST(Symmetry, HistoryIsStoredAndReadUnchanged)
   EXPECT_EQ(back.twisting_spring, h.twisting_spring);
 }
 
-// what a driver allocates before it knows the law's type, and what restart files count
+// the number of values that a driver allocates before it knows the law's type, and that restart
+// files have
 TEST(Symmetry, EveryLayoutHasASizeOfItsOwn)
 {
   const RollingModel rolling[] = {RollingModel::none, RollingModel::constant, RollingModel::sds};
@@ -128,8 +129,9 @@ TEST(Symmetry, AntisymmetricUnderExchangeOfIAndJ)
   }
 }
 
-// the rolling spring lies along the spin, which changes its sign with the exchange as LAMMPS has it
-// (found by this test: along w x u it did not, and pushed the wrong way after an exchange)
+// The rolling spring lies along the spin, which changes its sign when i and j change places, as
+// LAMMPS assumes. (This test found that a spring along w x u does not, and acts the wrong way
+// afterwards.)
 TEST(Symmetry, RollingSpringSurvivesTheExchangeOfIAndJ)
 {
   Material m = material(Law::linear, 1e3, 2e3, 1e3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-only
-// Velocities of the middle of a step and positions of its end: what springs are wound by.
+// Springs are wound by velocities of the middle of a step and positions of its end.
 
 #include "support.h"
 
@@ -18,8 +18,8 @@ Material sticky()
   return m;
 }
 
-/// A pair that a rotation by `angle` about `axis` has carried on, with the velocities of the middle
-/// of that step.
+/// A pair after a rigid rotation by `angle` about `axis`, with the velocities of the middle of that
+/// step.
 Bodies rotated_rigidly(Bodies b, const Vec3 &axis, double angle, double time_step)
 {
   const Vec3 w = angle / time_step * axis;
@@ -35,9 +35,9 @@ Bodies rotated_rigidly(Bodies b, const Vec3 &axis, double angle, double time_ste
   return b;
 }
 
-// A pair that turns as one body, about whatever axis, keeps its springs: they turn with it. With
-// the normal of the step's end each step would wind them by dt/2 (spin.u) |du/dt|, and without the
-// turn about u they would stay behind by the angle about u.
+// The springs of a pair that turns as one body, about any axis, turn with the pair. With the normal
+// of the step's end each step would wind them by dt/2 (spin.u) |du/dt|; without the turn about u
+// they would lag behind by the angle about u.
 TEST(TimeLevels, SpringsTurnWithAPairThatRotatesRigidly)
 {
   Random random(81);
@@ -62,7 +62,7 @@ TEST(TimeLevels, SpringsTurnWithAPairThatRotatesRigidly)
         evaluate(m, now, 1e-6, history);
       }
       const Vec3 there = Eigen::AngleAxisd(2.0, axis) * spring;
-      // of first order: the projection into the plane of now, of the spring's own length
+      // of first order, from the projection of the spring into the present plane
       EXPECT_LT((history.rolling_spring / 2e-6 - there).norm(), fine ? 5e-4 : 1e-3);
       error[fine] = (history.tangential_spring / 1e-6 - there).norm();
       EXPECT_LT(error[fine], 5e-3);
@@ -98,7 +98,7 @@ TEST(TimeLevels, RollingWithSpinWindsNoSpring)
   }
 }
 
-// Nothing is turned in a set-up call.
+// A set-up call turns nothing.
 TEST(TimeLevels, SetUpCallsSeeTheNormalOfNow)
 {
   Bodies b;
@@ -115,7 +115,7 @@ TEST(TimeLevels, SetUpCallsSeeTheNormalOfNow)
   EXPECT_EQ(history.tangential_spring, before.tangential_spring);
 }
 
-// A spring keeps its length to rounding, whatever it turns by: no energy out of rotation.
+// A spring that turns by any angle keeps its length to rounding: rotation gives no energy.
 TEST(TimeLevels, TurningKeepsTheLengthOfASpring)
 {
   Random random(82);
@@ -130,7 +130,7 @@ TEST(TimeLevels, TurningKeepsTheLengthOfASpring)
     EXPECT_NEAR(turned.norm(), spring.norm(), 2e-15 * spring.norm());
     const double angle = std::atan2(c.normal.dot(spring.cross(turned)), spring.dot(turned));
     EXPECT_NEAR(angle, c.twist, 1e-7);
-    // the way of the step turns by half of that
+    // the displacement of the step turns by half of that
     Vec3 way = 1e-3 * random.vector(1.0);
     way -= way.dot(c.normal) * c.normal;
     const Vec3 wound = wind<double>(spring, way / 1e-6, 1e-6, c) - turned;

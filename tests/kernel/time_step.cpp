@@ -54,7 +54,7 @@ TEST(TimeStep, TangentStiffnessOfAnExponent)
   }
 }
 
-// the bound of similar particles goes with their size
+// the bound of similar particles is in proportion to their size
 TEST(TimeStep, GoesWithSizeUnderScaling)
 {
   Random random(81);

@@ -37,7 +37,7 @@ TEST(Twisting, NoneGivesNoTorque)
   EXPECT_EQ(out.energy.twisting + out.lost.twisting, 0.0);
 }
 
-// step by step Marshall's, while the overlap does not change
+// at constant overlap every step is that of Marshall's model
 TEST(Twisting, IsSpringAndDashpotOfTheContactRadius)
 {
   const Material m = twister(1e6);
@@ -74,14 +74,14 @@ TEST(Twisting, TorqueIsBoundedByTwoThirdsOfFrictionTimesTheContactRadius)
       // the next step starts on the bound
       b.w_i.setZero();
       EXPECT_NEAR(evaluate(m, b, 1e-3, history).twisting_torque, -sign * limit, 1e-12 * limit);
-      // back by twice the angle that holds it: the same the other way round
+      // turned back by twice the angle of the bound, the torque is the opposite one
       b.w_i = Vec3(-2.0 * sign * limit / (0.5 * 300.0 * std::pow(contact_radius(b), 2)), 0.0, 0.0);
       EXPECT_NEAR(evaluate(m, b, 1.0, history).twisting_torque, sign * limit, 1e-12 * limit);
     }
   }
 }
 
-// where the dashpot alone is at the bound, no spring is left to drive the contact later
+// where the dashpot alone reaches the bound the spring is emptied, so that it does not drive later
 TEST(Twisting, NoSpringIsWoundBehindADashpotAtTheBound)
 {
   Material m = twister(0.01);
@@ -95,7 +95,7 @@ TEST(Twisting, NoSpringIsWoundBehindADashpotAtTheBound)
   EXPECT_EQ(history.twisting_spring, 0.0);
 }
 
-// a pair of types without it in a style that has it
+// a pair of types without twisting in a style with twisting
 TEST(Twisting, TakesNoPartWithAShareOfZero)
 {
   const Material m = twister();
@@ -113,7 +113,7 @@ TEST(Twisting, TakesNoPartWithAShareOfZero)
   EXPECT_EQ(history.twisting_spring, 0.0);
 }
 
-// omega^2 = k_t a^2/2 / I of a sphere on a wall, and what the spring holds is given back
+// omega^2 = k_t a^2/2 / I of a sphere on a wall; the energy of the spring is recovered
 TEST(Twisting, SmallTwistsSwingAtTheFrequencyOfTheirSpring)
 {
   Material m = twister(1e9);
@@ -156,7 +156,7 @@ TEST(Twisting, EnergyDoesNotChangeWithTheOverlap)
   EXPECT_EQ(out.lost.twisting, 0.0);
 }
 
-// what a contact still holds when it opens
+// energy that the spring still stores when the contact opens
 TEST(Twisting, OpeningLosesTheSpring)
 {
   const Material m = twister();
