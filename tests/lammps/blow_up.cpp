@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// A run that has gone wrong ends with an error that names the particles, not with NaN; and
-// restart files of other formats are refused by name.
+// A run with impossible overlaps ends with an error that names the particles, not with NaN.
+// Restart files of other formats are refused by name.
 
 #include "packing.h"
 
@@ -25,7 +25,7 @@ class BlowUp : public testing::TestWithParam<const char *> {
   const ScratchFile log{".log"};
 };
 
-// A hundred times the bound. The very step that would pass through is the one that is named.
+// A hundred times the bound. The error names the step in which the particle would pass through.
 TEST_P(BlowUp, OfAPackingNamesTwoAtoms)
 {
   Simulation simulation(MPI_COMM_WORLD, log.name());
@@ -72,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(
         "linear exponent 1.5\npair_coeff * * 1e5 2e5 5e4 0 0.5 kt 3e3 rolling sds 1e3 1 "
         "0.1"));
 
-// A start with a particle in another: in the set-up already, with both names. Of different sizes:
-// the smaller radius counts.
+// A start with one particle inside another is an error in the set-up, with both IDs. For different
+// sizes the smaller radius counts.
 TEST(OverlapBeyondARadius, IsNamedBeforeAnyStep)
 {
   Simulation simulation;
@@ -88,7 +88,7 @@ TEST(OverlapBeyondARadius, IsNamedBeforeAnyStep)
       << message;
 }
 
-// Two centres at one place: overlap without a direction.
+// Two coincident centres: an overlap without a direction.
 TEST(OverlapBeyondARadius, OfTwoAtomsAtOnePlaceIsNamed)
 {
   Simulation simulation;
@@ -119,7 +119,7 @@ class OtherFormat : public testing::Test {
     original.run(16);
     original("write_restart " + file.name());
   }
-  /// Puts `other` in the place of the only number that stands `before` the given ones.
+  /// Replaces the number before the only occurrence of the given ones by `other`.
   void patch(double own, const std::vector<double> &after, double other)
   {
     std::string bytes = file.text();
@@ -158,7 +158,7 @@ TEST_F(OtherFormat, UnchangedIsRead)
             "");
 }
 
-// A file that was cut off must not be taken for a whole one.
+// A truncated file must not be taken for a complete one.
 TEST_F(OtherFormat, CutOffIsRefused)
 {
   write();

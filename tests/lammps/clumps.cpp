@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Clumps poured from a molecule template: what users of granular models build out of LAMMPS's packages
-// MOLECULE and RIGID, with this package's contacts.
+// Clumps poured from a molecule template, with LAMMPS's packages MOLECULE and RIGID and this
+// package's contacts.
 
 #include "simulation.h"
 

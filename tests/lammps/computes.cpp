@@ -57,13 +57,14 @@ TEST_P(ContactsByHand, AgreeWithTheCompute)
     for (int k = 0; k < 5; k++)
       EXPECT_EQ(counted[k], expected[k]) << k << (group ? " odd" : " all");
     for (int k = 5; k < 8; k++) EXPECT_NEAR(counted[k], expected[k], 1e-12) << k;
-    for (int k = 0; k < 5; k++) EXPECT_GT(counted[k], 0.0) << k;    // every kind is there
+    for (int k = 0; k < 5; k++) EXPECT_GT(counted[k], 0.0) << k;    // every kind occurs
   }
 }
 INSTANTIATE_TEST_SUITE_P(Newton, ContactsByHand, testing::Values("on", "off"));
 
-// Steps that tally the energy evaluate one contact after the other, others several side by side,
-// and each writes down the branch and whether a contact slides: by turns, and all at once.
+// Steps that tally the energy evaluate one contact after the other, other steps several side by
+// side. Both record the branch and whether a contact slides: tested in alternation, and all at
+// once.
 TEST(Contacts, AreTheSameWhetherAStepTalliesOrNot)
 {
   constexpr int samples = 6, every = 40;
@@ -96,7 +97,7 @@ TEST(Contacts, AreTheSameWhetherAStepTalliesOrNot)
     EXPECT_EQ(tallied, plain) << more;
     std::array<double, 5> sums{};
     for (std::size_t k = 0; k < plain.size(); k++) sums[k % sums.size()] += plain[k];
-    EXPECT_GT(sums[0] / samples, 32.0);    // so many that they stand side by side
+    EXPECT_GT(sums[0] / samples, 32.0);    // enough contacts to be evaluated side by side
     for (int k = 1; k < 5; k++) EXPECT_GT(sums[k] / samples, 2.0) << k << more;
   }
 }
@@ -130,7 +131,7 @@ TEST(TimeStep, IsTheBoundOfTheContract)
              "pair_coeff 1 2 1e4 4e4 1e3 0 0\npair_coeff 2 2 1e4 1e4 0 0 0");
   simulation.run(0);
   EXPECT_NEAR(simulation.compute("dt"), 0.2 * std::sqrt(mass_of(light) / 1e5), 1e-15);
-  // k_adh counts too, and kt 7/2 fold: it turns a solid sphere as well as pushing it
+  // k_adh counts too, and kt 7/2 times, because it also turns a solid sphere
   simulation("pair_style gran/eepa linear\npair_coeff * * 1e3 2e3 6e4 0 0");
   simulation.run(0);
   EXPECT_NEAR(simulation.compute("dt"), 0.2 * std::sqrt(mass_of(light) / 6e4), 1e-15);
@@ -290,12 +291,12 @@ TEST_P(ElasticCollision, KeepsKineticPlusPotentialEnergy)
   for (int k = 0; k < 40; k++) {
     simulation.run(500);
     stored = std::max(stored, simulation.thermo("pe"));
-    // what a tangential spring still holds when the contact opens is lost by contract
+    // energy of a tangential spring when the contact opens is lost, by contract
     if (simulation.thermo("pe") == 0.0 && stored > 0.0 && friction) continue;
     EXPECT_NEAR(energy(), before, 1e-5 * before);
   }
   EXPECT_GT(stored, 0.3 * before);
-  EXPECT_EQ(simulation.thermo("pe"), 0.0);    // over
+  EXPECT_EQ(simulation.thermo("pe"), 0.0);    // the contact is over
 }
 INSTANTIATE_TEST_SUITE_P(Springs, ElasticCollision,
                          testing::Values("linear\npair_coeff * * 1e4 1e4 0 0 0",

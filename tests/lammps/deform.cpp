@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// A box that fix deform shears: how a contact learns that its particles move with it.
+// A box that fix deform shears: tangential springs must follow the motion of the box.
 
 #include "simulation.h"
 
@@ -10,7 +10,8 @@ using namespace eepa_test;
 
 namespace {
 
-// Two spheres one above the other in a box that is sheared along x at the rate 1 for 0.01 s; no force moves them.
+// Two spheres one above the other in a box that is sheared along x at the rate 1 for 0.01 s; no
+// force moves them.
 PairContact sheared(const std::string &remap)
 {
   Simulation simulation(MPI_COMM_SELF);
@@ -27,7 +28,7 @@ PairContact sheared(const std::string &remap)
   return simulation.contacts().at(0);
 }
 
-// With velocities that are those of the box the spring is wound by the way of the surfaces.
+// With the velocities of the box the spring is wound by the displacement of the surfaces.
 TEST(DeformedBox, WindsTheTangentialSpringByVelocities)
 {
   const double way = 0.01 * 0.99;
@@ -35,7 +36,7 @@ TEST(DeformedBox, WindsTheTangentialSpringByVelocities)
               1e-3 * 2.0 / 7.0 * 1e4 * way);
 }
 
-// What the documentation warns of.
+// With remap x the spring is not wound, as the documentation warns.
 TEST(DeformedBox, ThatMovesParticlesItselfWindsNoSpring)
 {
   const PairContact contact = sheared("x");

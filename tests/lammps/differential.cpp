@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Random scripts that are run in ways which must not matter: on one rank and on all, with threads, another
-// skin, newton off, more set-ups, a restart after every run, and twice. On 1, 2 and 4 ranks.
+// Random scripts, each run with changes that must not matter: on one rank and on all, with threads,
+// another skin, newton off, more set-ups, a restart after every run, and twice. On 1, 2 and 4
+// ranks.
 //
 //   EEPA_RANDOM_SCRIPTS="FIRST COUNT"   other seeds than 11 to 18: tests/hardening.sh differential
 
@@ -20,7 +21,8 @@ using namespace eepa_test;
 
 namespace {
 
-// Rounding grows to 1e-12 in these; histories that set-ups change, to 1e-5 and more.
+// Differences by rounding grow to 1e-12 in these scripts; histories that a set-up changes make 1e-5
+// and more.
 constexpr double tolerance = 1e-9;
 
 /// How a script is run.
@@ -30,8 +32,8 @@ struct Way {
   std::string newton = "on";
   double skin = 0.1;
   int threads = 0;          ///< 0: gran/eepa itself
-  bool restarts = false;    ///< after every run, alternately by one rank and by all
-  bool setups = false;      ///< another one before every run
+  bool restarts = false;    ///< a restart after every run, alternately by one rank and by all
+  bool setups = false;      ///< an additional set-up before every run
 };
 
 struct Result {
@@ -95,7 +97,7 @@ class ScriptRun {
     now()("newton " + way_.newton);
   }
 
-  /// What neither the box nor a restart file has.
+  /// Commands of which neither the box nor a restart file keeps the effect.
   void settings()
   {
     now()("comm_modify vel yes\nneighbor " + exact(way_.skin) +
@@ -105,7 +107,7 @@ class ScriptRun {
     now().watch_contacts();
   }
 
-  /// One rank reads what all wrote: every rank is that one, alone.
+  /// One rank reads what all ranks wrote: every rank does so for itself.
   void restart(MPI_Comm next)
   {
     const ScratchFile file(".restart");
@@ -135,7 +137,7 @@ TEST(ParallelRandomScripts, GiveTheSameInEveryWay)
   int ranks, rank;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  // with 11 and 18 a wall that has moved goes through a restart
+  // with seeds 11 and 18 a wall that has moved goes through a restart
   unsigned first = 11, count = static_cast<unsigned>(std::max(2, 8 / ranks));
   if (const char *wanted = std::getenv("EEPA_RANDOM_SCRIPTS"))
     std::istringstream(wanted) >> first >> count;

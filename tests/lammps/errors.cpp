@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Every error of the pair style, the wall and the computes: it names command, argument, value and
-// what is allowed. What the shared parser says is tested word by word in tests/parser.
+// Every error of the pair style, the wall and the computes names command, argument, value and what
+// is allowed. Messages of the shared parser are tested word by word in tests/parser.
 
 #include "simulation.h"
 
@@ -234,7 +234,7 @@ const Mistake compute_mistakes[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Lines, ComputeMistake, testing::ValuesIn(compute_mistakes));
 
-// After an error the instance is still good: nothing half done is left behind.
+// After an error the instance is still usable: nothing half done is left behind.
 TEST(AfterAnError, TheNextCommandWorks)
 {
   Simulation simulation;

@@ -25,9 +25,9 @@ void open_plane(Simulation &simulation, const Sphere &sphere, const std::string 
              "\nfix floor all wall/gran/eepa linear coeff " + coefficients + " wall zplane 0 NULL");
 }
 
-// Coulomb's law throughout: the tangential impulse is mu times the normal one, J = 2 m v_n of an
-// elastic contact, and its moment mu times the integral of f_n (R - delta/2). With
-// f_n = k delta, delta = D sin(omega t): = mu J (R - pi D/8).
+// Sliding throughout: the tangential impulse is mu times the normal one, J = 2 m v_n of an elastic
+// contact. Its moment is mu times the integral of f_n (R - delta/2): with f_n = k delta and
+// delta = D sin(omega t) it is mu J (R - pi D/8).
 TEST(ObliqueImpact, SlidingThroughoutChangesVelocityAndSpinByMuTimesTheImpulse)
 {
   const double k = 1e5, mu = 0.1, v_n = 1.0, v_t = 3.0;
@@ -45,14 +45,14 @@ TEST(ObliqueImpact, SlidingThroughoutChangesVelocityAndSpinByMuTimesTheImpulse)
   EXPECT_NEAR(p.v.x(), 0.6 * (v_t - mu * impulse / mass), 1e-5);
   EXPECT_NEAR(p.v.y(), 0.8 * (v_t - mu * impulse / mass), 1e-5);
   const double spin = mu * impulse * (radius - pi * depth / 8.0) / inertia;
-  // moving to +x on a floor it comes to turn about +y, as a wheel that is being spun up
+  // moving to +x on a floor the sphere is spun about +y, as a wheel
   EXPECT_NEAR(p.omega.y(), 0.6 * spin, 1e-5 * spin);
   EXPECT_NEAR(p.omega.x(), -0.8 * spin, 1e-5 * spin);
   EXPECT_NEAR(p.omega.z(), 0.0, 1e-12);
 }
 
-// Without slip the tangential spring swings at omega_t^2 = kt (1/m + a^2/I) during half a period
-// of the normal one: the slip velocity comes out as s cos(pi omega_t/omega_n).
+// Without slip the tangential spring oscillates at omega_t^2 = kt (1/m + a^2/I) during half a
+// period of the normal one: the final slip velocity is s cos(pi omega_t/omega_n).
 TEST(ObliqueImpact, StickingThroughoutTurnsTheSlipVelocityByTheSpringsPhase)
 {
   for (const double ratio : {0.1, 2.0 / 7.0}) {
@@ -95,8 +95,8 @@ TEST(ObliqueImpact, OfTwoSpheresSharesTheImpulseByMass)
 
 class AngularMomentum : public testing::TestWithParam<const char *> {};
 
-// The arms of a contact add up to the distance of the centres, and forces act at the positions
-// that momenta are taken at: spin and orbital angular momentum are kept to rounding.
+// The arms of a contact add up to the distance of the centres, and forces act at the positions for
+// which momenta are taken: spin plus orbital angular momentum is kept to rounding.
 TEST_P(AngularMomentum, IsKeptInAnObliqueCollision)
 {
   Simulation simulation;
@@ -121,7 +121,7 @@ TEST_P(AngularMomentum, IsKeptInAnObliqueCollision)
     EXPECT_LT((now - before).norm(), 1e-12 * before.norm());
     EXPECT_LT((linear - linear_before).norm(), 1e-12 * linear_before.norm());
   }
-  EXPECT_GT(touched, 1e-3);    // there was something to conserve it against
+  EXPECT_GT(touched, 1e-3);    // contacts did change spins
 }
 INSTANTIATE_TEST_SUITE_P(
     Laws, AngularMomentum,
@@ -171,7 +171,7 @@ TEST(Sliding, SphereEndsUpRollingAtFiveSeventhsOfItsVelocity)
     simulation.run(40000);
     const Particle p = simulation.particle(1);
     const double arm = radius - 0.5 * delta;
-    // 1e-8: what is left of the spring's oscillation, damped with e = 0.1 for 0.3 s
+    // 1e-8: the spring's oscillation after damping with e = 0.1 for 0.3 s
     EXPECT_NEAR(p.v.x(), 1.0 / (1.0 + inertia / (mass * arm * arm)), 1e-8);
     EXPECT_NEAR(p.v.x(), 5.0 / 7.0, 2e-4);
     EXPECT_NEAR(p.omega.y() * arm, p.v.x(), 1e-8);
@@ -179,8 +179,8 @@ TEST(Sliding, SphereEndsUpRollingAtFiveSeventhsOfItsVelocity)
   }
 }
 
-// B_t is B_n with kt in the place of k1: sqrt(4 m* kt/(1 + (pi/ln e)^2)). In a set-up call no spring
-// is wound, and with friction without bound the dashpot is all that acts in the tangent plane.
+// B_t is B_n with kt instead of k1: sqrt(4 m* kt/(1 + (pi/ln e)^2)). In a set-up call no spring is
+// wound, and with unlimited friction only the dashpot acts in the tangent plane.
 TEST(TangentialDashpot, IsThatOfTheRestitutionWithTheTangentialStiffness)
 {
   const double e = 0.4, kt = 3e3, v = 0.7;
@@ -251,11 +251,12 @@ TEST_P(RollingDecay, EndsAtRestWithoutDrift)
   EXPECT_LT(later.v.norm(), 1e-7);
   EXPECT_LT(later.omega.norm(), 1e-7);
   EXPECT_LT((later.x - rest.x).norm(), 1e-8);
-  EXPECT_GT(rest.x.x(), 1e-3);    // it did roll before
+  EXPECT_GT(rest.x.x(), 1e-3);    // the sphere did roll before
 }
 INSTANTIATE_TEST_SUITE_P(Models, RollingDecay, testing::Values("constant 0.02", "sds 1e3 60 0.02"));
 
-// At rest on a slope below mu_r a wheel with a rolling spring stays; above it rolls away.
+// A wheel with a rolling spring stays at rest on a slope below mu_r, and rolls away on a steeper
+// one.
 TEST(RollingSpring, HoldsOnASlopeBelowMuRAndNotAbove)
 {
   for (const double slope : {0.01, 0.04}) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
 // Against LAMMPS's own `pair_style granular` where the physics is the same: linear spring and
-// dashpot (k2 = k1, k_adh = f0 = 0), linear_history friction, rolling sds. LAMMPS winds its
-// springs with one lever arm (the whole radius) and turns with another; this project uses
-// R - delta/2 for both, so the two part by O(delta/R), which goes with k^-1/2.
+// dashpot (k2 = k1, k_adh = f0 = 0), linear_history friction, rolling sds. LAMMPS winds its springs
+// with one lever arm (the whole radius) and computes torques with another; this project uses R -
+// delta/2 for both. So the two differ by O(delta/R), which scales with k^-1/2.
 
 #include "packing.h"
 
@@ -20,7 +20,7 @@ namespace {
 struct Model {
   const char *name;
   double mu;
-  bool dashpot;    ///< in the contact; LAMMPS's friction bound has it, this project's has not
+  bool dashpot;    ///< in the contact; LAMMPS's friction bound contains it, this project's does not
   const char *rolling;    ///< "" or the mu_r of sds
   bool rolling_dashpot;
   double speed;    ///< of approach of each
@@ -44,14 +44,14 @@ std::vector<Particle> collide(const Model &model, double k, bool own)
         exact(mu) + " kt " + exact(kt) + " viscous " + exact(bn) + " " + exact(bt) +
         (rolling ? " rolling sds " + exact(kr) + " " + exact(gr) + " " + model.rolling : ""));
   } else {
-    // damping velocity: the coefficient is B itself; that of the tangent is a multiple of it
+    // damping velocity: the normal coefficient is B itself, the tangential one a multiple of it
     simulation(
         "pair_style granular\npair_coeff * * hooke " + exact(k) + " " + exact(bn) +
         " damping velocity tangential linear_history " + exact(kt) + " " +
         exact(model.dashpot ? bt / bn : 0.0) + " " + exact(mu) +
         (rolling ? " rolling sds " + exact(kr) + " " + exact(gr) + " " + model.rolling : ""));
   }
-  // a contact lasts pi sqrt(m*/k); 4000 steps for it and the way
+  // a contact lasts pi sqrt(m*/k); 4000 steps for approach and contact
   const double contact = pi * std::sqrt(0.5 / k) + 0.001 / (2.0 * model.speed);
   simulation("fix integrate all nve/sphere\ntimestep " + exact(contact / 3000.0));
   simulation.run(3600);
@@ -78,14 +78,14 @@ TEST_P(GranularCollision, IsThatOfLammpsUpToTheLeverArm)
     const double k = 1e4 * std::pow(100.0, n);
     const auto reference = collide(model, k, false), own = collide(model, k, true);
     EXPECT_GT((reference[0].v - Vec3(model.speed, 0, 0) - model.shift).norm(),
-              0.5);    // it did collide
+              0.5);    // the spheres did collide
     by_stiffness[n] = deviation(reference, own);
     const double overlap = 2.0 * model.speed * std::sqrt(0.5 / k);
     EXPECT_LT(by_stiffness[n], 2.0 * overlap / 0.5) << k;
   }
   std::printf("%s: %.1e %.1e %.1e\n", model.name, by_stiffness[0], by_stiffness[1],
               by_stiffness[2]);
-  // to an accuracy of the time integration, which is alike in both but for the arms
+  // to the accuracy of the time integration, which differs between the two only by the arms
   EXPECT_LT(by_stiffness[1], 0.2 * by_stiffness[0] + 1e-9);
   EXPECT_LT(by_stiffness[2], 0.2 * by_stiffness[1] + 1e-9);
 }
@@ -101,14 +101,14 @@ INSTANTIATE_TEST_SUITE_P(Models, GranularCollision, testing::ValuesIn(models),
                            return std::string(info.param.name);
                          });
 
-// Central collisions have no arm: the same motion to rounding.
+// Central collisions do not depend on the arms: the same motion to rounding.
 TEST(GranularReference, CentralCollisionIsTheSameToRounding)
 {
   const Model model = {"central", 0.4, true, "", false, 1.0, Vec3::Zero(), Vec3::Zero()};
   EXPECT_LT(deviation(collide(model, 1e4, false), collide(model, 1e4, true)), 1e-12);
 }
 
-// A packing without friction: no arms either.
+// A packing without friction does not depend on the arms either.
 TEST(GranularReference, FrictionlessPackingMovesAlike)
 {
   Packing packing;
@@ -130,9 +130,9 @@ TEST(GranularReference, FrictionlessPackingMovesAlike)
 
 /* ---------------------------------------------------------------------- prescribed motion */
 
-// Two spheres of radius 0.5 and 0.3 that overlap by 0.01 and whose motion is given, so that forces
-// can be compared step by step, without the arms: LAMMPS winds with R omega, this project with
-// a omega, a = R - delta/2, and both turn with a.
+// Two spheres of radius 0.5 and 0.3 that overlap by 0.01, with prescribed motion, so that forces
+// can be compared step by step without the effect of the arms: LAMMPS winds springs with R omega,
+// this project with a omega, a = R - delta/2; both compute torques with a.
 class PrescribedMotion : public testing::Test {
  protected:
   static constexpr double overlap = 0.01, radii[2] = {0.5, 0.3};
@@ -154,7 +154,7 @@ class PrescribedMotion : public testing::Test {
     }
     own.watch_contacts();
   }
-  /// Spins that move the surfaces alike.
+  /// Spins that give the same surface velocities in both.
   void spin(const Vec3 &first, Vec3 second)
   {
     // without a mean spin about the normal, with which springs turn here and not in LAMMPS's
@@ -229,7 +229,7 @@ TEST_F(PrescribedMotion, SlidingBySpinWithDashpots)
   expect_same("sliding by spin");
 }
 
-// Rolling is wound by R* (omega_i - omega_j) in both: no arm, and the same spins.
+// Rolling springs are wound by R* (omega_i - omega_j) in both: no arm, and the same spins.
 TEST_F(PrescribedMotion, RollingSds)
 {
   open("hooke 1e4 20 damping velocity tangential linear_history 3e3 0 0 rolling sds 2e3 5 0.1",
@@ -254,7 +254,7 @@ TEST_F(PrescribedMotion, RollingSds)
       most = std::max(most, torque);
     }
   }
-  // mu_r N R*: reached, and not always
+  // the bound mu_r N R* is reached, but not always
   const double bound = 0.1 * 1e4 * overlap * 0.15 / 0.8;
   EXPECT_NEAR(most, bound, 1e-9);
   EXPECT_LT(least, 0.5 * bound);

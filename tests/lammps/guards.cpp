@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What the styles can not work with is refused by name; held particles, several rigid bodies,
-// announced particles give the right values.
+// Settings that the styles can not work with are refused by name. Held particles, several rigid
+// bodies and announced particles give the right values.
 
 #include "simulation.h"
 
@@ -178,7 +178,8 @@ TEST(Units, OneProblemInAllUnitSystems)
   }
 }
 
-// Beads of a floor that overlap by more than a radius do not stop a run, nor press on each other.
+// Beads of a floor that overlap by more than a radius do not stop a run and exert no force on each
+// other.
 TEST(HeldParticles, OfAFloorMayOverlap)
 {
   Simulation simulation;
@@ -194,7 +195,7 @@ TEST(HeldParticles, OfAFloorMayOverlap)
   EXPECT_NEAR(simulation.thermo("pe"), 0.5 * 2e4 * 0.005 * 0.005, 1e-3);
 }
 
-// What is free to move still stops the run.
+// Free particles that overlap as deeply still stop the run.
 TEST(HeldParticles, OthersAreNamedWithWhatToType)
 {
   Simulation simulation;
@@ -234,7 +235,7 @@ INSTANTIATE_TEST_SUITE_P(ParallelFixes, TwoBodies,
                          testing::Values("rigid single", "rigid/nve custom i_body",
                                          "rigid/small custom i_body"));
 
-// The bound of particles to come is that of the same particles when they are there.
+// The bound of announced particles is that of the same particles after insertion.
 TEST(Announced, ParticlesHaveTheBoundThatTheyWillHave)
 {
   const std::string style = "pair_style gran/eepa linear scale 1.0\npair_coeff * * 1e4 2e4 0 0 0\n"
@@ -255,7 +256,7 @@ TEST(Announced, ParticlesHaveTheBoundThatTheyWillHave)
   EXPECT_DOUBLE_EQ(empty.compute("dt"), filled.compute("dt"));
 }
 
-// Particles that come in mid-run are held against the time step when they appear.
+// The time step is checked for particles that are inserted in mid-run when they appear.
 TEST(Announced, NewParticlesAreCheckedWhenTheyAppear)
 {
   for (const std::string owner : {"pair_style gran/eepa", "fix w wall/gran/eepa"}) {

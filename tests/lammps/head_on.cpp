@@ -47,9 +47,9 @@ HeadOn closed_form(const Case &c, double mass)
       : linear_impact(energy, c.k1, c.k2, c.k_adh, c.f0, c.exponent);
 }
 
-/// One step in 20,000 of a half period at the stiffness that acts: the order of the scheme's
-/// error is its square, and that of the steps of the force at delta = 0 and at the plateau its
-/// first power times pi.
+/// A step of 1/20,000 of a half period at the acting stiffness. The error of the scheme is of
+/// second order in it; the error of the jumps of force at delta = 0 and at the plateau is of first
+/// order, times pi.
 double time_step(const Case &c, double mass, double max_overlap)
 {
   const double stiffness = c.k2 * std::pow(max_overlap, c.exponent - 1.0);
@@ -58,7 +58,7 @@ double time_step(const Case &c, double mass, double max_overlap)
 
 class HeadOnImpact : public testing::TestWithParam<Case> {
  protected:
-  /// Runs until the contact must be over; 5 half periods of the softest branch do.
+  /// Runs until the contact must be over; 5 half periods of the softest branch suffice.
   void pass(Simulation &simulation, double mass, const HeadOn &expected)
   {
     const Case &c = GetParam();
@@ -91,7 +91,7 @@ TEST_P(HeadOnImpact, OfTwoParticles)
   const auto particles = simulation.particles();
   if (expected.sticks) {
     ASSERT_EQ(simulation.contacts().size(), 1u);
-    // they go on together with the velocity of the centre of mass
+    // they move on together with the velocity of the centre of mass
     const double centre = (m1 * light.v.x() + m2 * heavy.v.x()) / (m1 + m2);
     EXPECT_NEAR((m1 * particles[0].v.x() + m2 * particles[1].v.x()) / (m1 + m2), centre, 1e-12);
   } else {
@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, HeadOnImpact, testing::ValuesIn(cases), [](const 
   return std::string(info.param.name);
 });
 
-// What the issue asks for by its own formula, so that closed_forms.h is held to it.
+// The published formula itself, as a check of closed_forms.h.
 TEST(HeadOnFormula, LinearIsTheOneOfTheIssue)
 {
   const double k1 = 1e4, k2 = 2e4, k_adh = 5e3;
@@ -156,7 +156,7 @@ TEST(HeadOnFormula, LinearIsTheOneOfTheIssue)
 }
 
 // Restitution damping: B_n = sqrt(4 m* k1/(1 + (pi/ln e)^2)) gives e for the linear
-// spring-dashpot that is left at delta = 0, whatever the masses.
+// spring-dashpot whose contact ends at delta = 0, for any masses.
 class Dashpot : public testing::TestWithParam<double> {};
 
 TEST_P(Dashpot, GivesItsRestitutionBetweenParticles)
@@ -170,7 +170,7 @@ TEST_P(Dashpot, GivesItsRestitutionBetweenParticles)
              "\nfix integrate all nve/sphere\ntimestep 1e-6");
   simulation.run(60000);
   const auto particles = simulation.particles();
-  // 1e-3: a step of 1e-6 in a half period of 1e-2, left with a jump of B_n v
+  // 1e-3: a step of 1e-6 in a half period of 1e-2, and a jump of B_n v at the end
   EXPECT_NEAR(particles[1].v.x() - particles[0].v.x(), e, 1e-3);
 }
 

@@ -72,7 +72,7 @@ TEST_F(TwoSpheres, FollowThePlateauLawAlongAPath)
   EXPECT_NEAR(force(), -k_adh * 0.005, 1e-6);
   carry(Vec3(0.002, 0, 0));
   EXPECT_NEAR(force(), -k_adh * 0.005, 1e-6);
-  // the same way back: delta_max did not change
+  // unloading follows the same line back: delta_max did not change
   carry(Vec3(-0.005, 0, 0));
   EXPECT_NEAR(force(), k2 * (0.006 - 0.005), 1e-6);
 }
@@ -95,7 +95,8 @@ TEST_F(TwoSpheres, HaveAVirginContactAfterTheyParted)
   EXPECT_NEAR(contact.normal_force, k1 * contact.overlap(), 1e-9);
 }
 
-// Between two rebuilds of the neighbour list, which would drop the history of pairs apart anyway.
+// All between two rebuilds of the neighbour list, which would delete the history of separate pairs
+// anyway.
 TEST_F(TwoSpheres, HaveAVirginContactAfterAnOpeningWithinOneRun)
 {
   open("plateau", 0.0);
@@ -133,7 +134,7 @@ TEST_F(TwoSpheres, AreNotWoundUpBySetUpCalls)
     EXPECT_EQ(simulation.particle(2).f.y(), 0.0);
     EXPECT_EQ(simulation.contacts()[0].tangential().norm(), 0.0);
   }
-  // nor do they leave a largest overlap behind
+  // set-ups leave no largest overlap behind either
   simulation("displace_atoms second move 0.005 0 0\nrun 0 post no");
   EXPECT_NEAR(force(), k1 * 0.005, 1e-9);
 }
@@ -143,7 +144,7 @@ TEST_F(TwoSpheres, LoseTheHistoryOfADeletedPartner)
   open("linear", 0.0);
   simulation.create({{Vec3(0, 2, 0)}});
   carry(Vec3(-0.02, 0, 0));
-  // LAMMPS keeps histories by ID: what comes instead must have an ID of its own
+  // LAMMPS keeps histories by ID, so the replacement must have a new ID
   simulation("delete_atoms group second compress no");
   simulation.create({{Vec3(0.99, 0, 0)}});
   simulation("run 0 post no");
@@ -151,7 +152,7 @@ TEST_F(TwoSpheres, LoseTheHistoryOfADeletedPartner)
   EXPECT_NEAR(simulation.particle(4).f.x(), k1 * 0.01, 1e-9);
 }
 
-// single() shows the force of the run, with the sign of the particle that it names.
+// single() gives the force of the run, with the sign for the particle that it is asked about.
 TEST_F(TwoSpheres, SingleShowsTheForcesOfTheRun)
 {
   open("linear", 0.01);
@@ -174,7 +175,7 @@ TEST_F(TwoSpheres, SingleShowsTheForcesOfTheRun)
   EXPECT_GT(c.p[3], 0.0);
 }
 
-// Asked from the other side, the springs and the forces on "i" have the other sign.
+// With the two particles exchanged, the springs and the forces on "i" have the other sign.
 TEST_F(TwoSpheres, SingleIsTheOppositeFromTheOtherSide)
 {
   open("linear", 0.01);
@@ -244,7 +245,8 @@ TEST(SetUp, InTheMiddleOfARunChangesNothingWithoutDashpots)
       for (int k = 0; k < pieces; k++) simulation.run(200 / pieces);
       end[pieces - 1] = simulation.particles();
     }
-    // 1e-9: rounding of the point where an adhesive contact stands on both of its lines
+    // 1e-9: rounding where an adhesive contact is on the adhesive branch and its reloading line at
+    // once
     EXPECT_LT(difference(end[0], end[1]), 1e-9) << law;
   }
 }

@@ -40,15 +40,15 @@ TEST_P(GranHooke, MovesAPackingAlike)
       work = std::max(work, (start[k].v - end[which][k].v).norm());
   }
   EXPECT_EQ(end[0].size(), 216u);
-  EXPECT_GT(work, 1.0);    // contacts changed velocities by more than they were
+  EXPECT_GT(work, 1.0);    // contacts changed velocities by more than their initial values
   // 1e-9 as the contract asks: rounding, 1e-16, grown by 500 steps of colliding particles
   const double deviation = difference(end[0], end[1]);
   EXPECT_LT(deviation, 1e-9);
   std::printf("%s: %.1e\n", GetParam().name, deviation);
 }
 
-// meff gamma_n of gran/hooke is B_n: m* = 1/2 and gamma_n = 8 make 4. A dashpot alike for all
-// pairs is the same only where all masses are.
+// meff gamma_n of gran/hooke is B_n: m* = 1/2 and gamma_n = 8 make 4. One B_n for all pairs agrees
+// with it only where all masses are equal.
 const Comparison comparisons[] = {
     {"undamped", false, "pair_style gran/hooke 1e4 0 0 0 0 0\npair_coeff * *",
      "pair_style gran/eepa linear\npair_coeff * * 1e4 1e4 0 0 0"},

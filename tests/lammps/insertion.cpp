@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Particles that appear and go in mid-run: a new one has no history, wherever it is put, and those
-// that stay keep theirs. On 1, 2 and 4 ranks.
+// Particles that are inserted and deleted in mid-run: a new particle has no history, wherever it is
+// inserted, and the remaining ones keep theirs. On 1, 2 and 4 ranks.
 
 #include "packing.h"
 
@@ -45,7 +45,7 @@ Contacts by_pair(const Simulation &simulation)
 
 class ParallelReplacement : public testing::TestWithParam<const char *> {};
 
-// Every third particle is taken away and another one is put where it was.
+// Every third particle is deleted and a new one is inserted at its position.
 TEST_P(ParallelReplacement, GivesVirginContactsAndKeepsTheOthers)
 {
   Simulation simulation;
@@ -112,7 +112,7 @@ TEST_P(ParallelReplacement, GivesVirginContactsAndKeepsTheOthers)
 }
 INSTANTIATE_TEST_SUITE_P(Newton, ParallelReplacement, testing::Values("on", "off"));
 
-// An ID that is given again does not bring back the history of the one that had it.
+// A new particle with a used ID does not get the history of the particle that had it before.
 TEST_P(ParallelReplacement, OfTheLastIdGivesAVirginContact)
 {
   Simulation simulation;
@@ -143,7 +143,8 @@ TEST_P(ParallelReplacement, OfTheLastIdGivesAVirginContact)
   EXPECT_GT(kept, 50);
 }
 
-// LAMMPS renumbers the rest by default, and keeps histories by ID: they would go to anybody.
+// LAMMPS renumbers the rest by default, and keeps histories by ID: they would go to other
+// particles.
 TEST_P(ParallelReplacement, RenumberedIdsAreRefused)
 {
   constexpr const char *message = "pair_style gran/eepa: atom IDs were renumbered while there were "
@@ -156,7 +157,7 @@ TEST_P(ParallelReplacement, RenumberedIdsAreRefused)
     simulation.run(150);
     simulation(renumber);
     if (simulation.particles().empty())
-      EXPECT_EQ(error_of(simulation, "run 0"), "");    // nobody has a history
+      EXPECT_EQ(error_of(simulation, "run 0"), "");    // no particle has a history
     else
       EXPECT_TRUE(refuses(simulation, "run 0", message)) << renumber;
   }
@@ -173,7 +174,7 @@ TEST_P(ParallelReplacement, RenumberedIdsAreRefused)
                       "first run.*put run 0 before that command"));
 }
 
-// The pair's histories would be found under the new IDs all the same, one way or another.
+// The pair's histories would be found under the new IDs all the same, in one order or the other.
 TEST(Insertion, SeesRenumberingThatLeavesPairsOfIds)
 {
   constexpr const char *message = "atom IDs were renumbered while there were contacts";
@@ -185,7 +186,7 @@ TEST(Insertion, SeesRenumberingThatLeavesPairsOfIds)
   swapped.create({{Vec3(0.49, 0, 0), Vec3(-1, 0, 0)}, {Vec3(-0.49, 0, 0), Vec3(1, 0, 0)}});
   swapped(start);
   EXPECT_TRUE(refuses(swapped, "reset_atoms id sort yes\nrun 0", message));
-  // those before them go, and they move up
+  // the particles before them are deleted, and they move up
   Simulation moved_up;
   moved_up.open_box(3.0);
   moved_up.create({{Vec3(0, 2, 0)}, {Vec3(0, -2, 0)}, {Vec3(-0.49, 0, 0)}, {Vec3(0.49, 0, 0)}});
@@ -204,12 +205,12 @@ TEST(Insertion, TakesNoContactOfRoundingForRenumbering)
   EXPECT_EQ(error_of(simulation, "run 1\nrun 1"), "");
 }
 
-// A particle goes in mid-run and in the same step another comes, with its ID and at its place.
+// In one step of a run a particle is deleted and another is inserted with its ID at its position.
 class ParallelReusedId : public testing::TestWithParam<const char *> {};
 
 TEST_P(ParallelReusedId, HasNoHistory)
 {
-  // whether it lies before or behind its partner; on several ranks z = 0 parts the two
+  // on either side of its partner; on several ranks z = 0 separates the two
   for (const double side : {-1.0, 1.0}) {
     Simulation simulation;
     simulation.open_box(3.0, 1, "f f f", GetParam());
@@ -240,8 +241,8 @@ TEST_P(ParallelReusedId, HasNoHistory)
 }
 INSTANTIATE_TEST_SUITE_P(Newton, ParallelReusedId, testing::Values("on", "off"));
 
-// Particles that come and go under way: as many as there should be, finite, with a history that
-// belongs to the contact, and on other ranks the same.
+// Particles that are inserted and deleted during a run: their number is right, values are finite,
+// each history belongs to its contact, and other numbers of ranks give the same.
 class ParallelInsertion : public testing::TestWithParam<const char *> {
  protected:
   static std::vector<Particle> rain(MPI_Comm comm, const std::string &newton,
@@ -302,8 +303,8 @@ TEST_P(ParallelInsertion, FixDeposit)
       80);
 }
 
-// Evaporation chooses by rank, so that only one's own run is looked at; wall and pair histories of
-// those that stay must go along when others leave their places in the arrays.
+// Fix evaporate chooses atoms by rank, so that no two runs are compared. Wall and pair histories of
+// the remaining particles must move along when deleted ones leave their slots in the arrays.
 TEST_P(ParallelInsertion, FixEvaporateAndDeposit)
 {
   int highest = 0;
@@ -322,8 +323,8 @@ TEST_P(ParallelInsertion, FixEvaporateAndDeposit)
 }
 
 // A fix that is defined before the pair style deletes and inserts particles before histories are
-// taken from the neighbour list, which knows them by their places: others have these by then, and
-// new ones those of ghosts.
+// taken from the neighbour list, which holds local indices. By then other particles have these
+// indices, and new particles those of ghosts.
 TEST_P(ParallelInsertion, ByFixesBeforeThePairStyle)
 {
   const std::string evaporate = "fix evaporate all evaporate 20 3 everywhere 49892\n";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What must not change the motion of a packing whose contacts cross ranks and periodic boundaries.
-// Suites of two simulations that differ in one thing; the deviations are relative to the largest
-// component of each quantity (see difference()).
+// Changes that must not affect the motion of a packing whose contacts cross ranks and periodic
+// boundaries. Each test compares two simulations that differ in one thing; deviations are relative
+// to the largest component of each quantity (see difference()).
 
 #include "packing.h"
 
@@ -87,7 +87,7 @@ class ParallelInvariance : public testing::TestWithParam<Law> {
  protected:
   const Law &law = GetParam();
 
-  /// Of each test, over all laws: comparisons and the worst deviation, for tests/README.md.
+  /// Number of comparisons and worst deviation of each test, over all laws, for tests/README.md.
   static std::map<std::string, std::pair<int, double>> found;
   static void report(double deviation)
   {
@@ -209,7 +209,7 @@ TEST_P(ParallelInvariance, NinetyDegrees)
 
 TEST_P(ParallelInvariance, PlaceInThePeriodicBox)
 {
-  // by a box length, which wraps to the same place, and by parts of one
+  // by a box length, which wraps to the same position, and by parts of one
   const double length = 2.0 * the_packing().half();
   for (const Vec3 &shift :
        {Vec3(length, -length, 0), Vec3(0.3 * length, 0.5 * length, -0.77 * length)}) {
@@ -261,7 +261,8 @@ TEST_P(ParallelInvariance, Balancing)
   simulation("run 60 post no");
   simulation("fix balance all balance 10 1.0 shift zx 5 1.0 weight group 1 all 2.0");
   simulation.run(70);
-  // each run's start computes forces from full-step velocities: the same breaks in the reference
+  // the start of each run computes forces from full-step velocities, so the reference has the same
+  // breaks
   Setting alone;
   alone.comm = MPI_COMM_SELF;
   Simulation broken(MPI_COMM_SELF);

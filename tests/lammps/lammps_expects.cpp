@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What LAMMPS's own commands take for granted of a granular pair style.
+// Assumptions of LAMMPS's own commands about a granular pair style.
 
 #include "packing.h"
 
@@ -70,7 +70,7 @@ TEST(ParallelFabric, HasTheTangentialForces)
   EXPECT_GT(largest, 1e-2);
 }
 
-// Given motion without spin and without a dashpot, in which the two laws are one.
+// Prescribed motion without spin and without a dashpot, in which the two laws agree.
 TEST(Fabric, IsThatOfHookeHistory)
 {
   const auto fabric = [](const std::string &style) {

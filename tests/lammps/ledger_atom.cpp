@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// compute gran/eepa/energy/atom: what each particle dissipates, against the ledger of all.
+// compute gran/eepa/energy/atom: dissipation of each particle, against the ledger of all.
 
 #include "packing.h"
 
@@ -85,7 +85,7 @@ TEST_P(ParallelAtomLosses, AddUpToTheLedger)
   prepare(simulation);
   simulation.run(400);
   expect_sums_of_ledger(simulation);
-  simulation.run(100);    // goes on
+  simulation.run(100);    // a second run continues the sums
   expect_sums_of_ledger(simulation);
 }
 
@@ -123,7 +123,8 @@ TEST_P(ParallelAtomLosses, HaveTheSameBitsEachTimeWithThreads)
 #endif
 INSTANTIATE_TEST_SUITE_P(Newton, ParallelAtomLosses, testing::Values("on", "off"));
 
-// Half of a contact to each partner, all of one with a wall, nothing to others.
+// Half of a contact's loss goes to each partner, the whole loss at a wall to the particle, nothing
+// to others.
 TEST(AtomLosses, AreHalvedBetweenParticlesAndWholeAtAWall)
 {
   Simulation simulation;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// compute gran/eepa/energy: the balance of a packing that is compressed and let go, each channel
-// against its closed form, and that neither ranks nor its mere existence change anything.
+// compute gran/eepa/energy: the balance of a packing that is compressed and released, each channel
+// against its closed form. Neither the number of ranks nor the existence of the compute may change
+// anything.
 
 #include "packing.h"
 
@@ -54,7 +55,7 @@ struct Course {
   std::vector<double> end;
 };
 
-/// side^3 particles are compressed by 4% and let go: the top goes down and up again as a cosine,
+/// side^3 particles are compressed by 4% and released: the top moves down and up again as a cosine,
 /// the other walls drag, and there is gravity.
 /// \param speed  of the start, with gaps between all particles; 0: at rest, touching
 Course compress(const Balance &law, int side, double speed, double fraction_of_bound)
@@ -144,8 +145,8 @@ class CompressedPacking : public testing::TestWithParam<Balance> {
   }
 };
 
-// At a quarter the drift must fall at least linearly; the margin is for two different chaotic
-// motions.
+// At a quarter of the bound the drift must fall at least linearly; the margin is for two different
+// chaotic motions.
 TEST_P(CompressedPacking, KeepsTheSumOfAllEnergies)
 {
   compress_twice(GetParam().side, 0.0);
@@ -153,8 +154,9 @@ TEST_P(CompressedPacking, KeepsTheSumOfAllEnergies)
   EXPECT_LT(quarter.drift, 0.5 * half.drift + 2e-5 * half.put_in);
 }
 
-// All particles hit their neighbours at once. While contacts last their dashpots are booked ahead,
-// to first order (see dissipation.h); what remains at the end is of second order.
+// All particles hit their neighbours at once. While contacts last, the ledger of their dashpots is
+// ahead by a term of first order (tests/kernel/DISSIPATION.md); the error at the end is of second
+// order.
 TEST_P(CompressedPacking, KeepsItThroughAViolentStart)
 {
   compress_twice(8, 5.0);
@@ -180,11 +182,10 @@ INSTANTIATE_TEST_SUITE_P(Laws, CompressedPacking, testing::ValuesIn(balances),
 
 /* ---------------------------------------------------------------------- the first step */
 
-// Two spheres that already overlap, and part. A set-up call leaves no state, so the first step
-// unloads the given overlap along the loading line, as a virgin contact does, and gets back what
-// the start counted as lost: v dt k1 delta (1 - k1/k2) for n = 1, a tenth more for n = 1.5; once, and
-// falling with the time step.
-// To book it would make hysteresis decrease.
+// Two spheres that overlap at the start and separate. A set-up call leaves no state, so the first
+// step unloads the given overlap along the loading line, as a virgin contact does, and recovers
+// energy that the start counted as lost: v dt k1 delta (1 - k1/k2) for n = 1, a tenth more for n =
+// 1.5. This happens once and falls with the time step. Booking it would make hysteresis decrease.
 TEST(LedgerStart, GivenOverlapsThatPartAtOnceAreBookedToFirstOrder)
 {
   for (const char *law : {"plateau", "linear", "linear exponent 1.5"}) {
@@ -223,11 +224,11 @@ struct Impact {
   const char *name, *style, *coefficients;
   Vec3 v;         ///< of one sphere against another or a wall
   double wall;    ///< velocity of the wall; no wall for 0
-  double most;    ///< of what may be missed
+  double most;    ///< largest error allowed
 };
 
-/// What the ledger misses in one impact, relative to its kinetic energy, mean over starts within a
-/// step: what is left after that is one-signed, and adds up over impacts.
+/// Error of the ledger over one impact, relative to its kinetic energy, as the mean over starts
+/// within a step. The mean has one sign, so that it would add up over impacts.
 double missed(const Impact &impact, double time_step)
 {
   constexpr int starts = 40;
@@ -265,7 +266,8 @@ double missed(const Impact &impact, double time_step)
 
 class LedgerImpact : public testing::TestWithParam<Impact> {};
 
-// At half the bound and at a quarter: of second order, but for the scatter of 40 starts.
+// At half the bound and at a quarter: the error is of second order, except for the scatter of 40
+// starts.
 TEST_P(LedgerImpact, MissesLittleAndLessWithTheStep)
 {
   const double half = missed(GetParam(), 7e-4), quarter = missed(GetParam(), 3.5e-4);
@@ -300,7 +302,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, LedgerImpact, testing::ValuesIn(impacts), [](con
 
 /* ---------------------------------------------------------------------- one channel alone */
 
-/// Two spheres of mass 1 that meet head on at 1 and 1; the ledger when they have parted.
+/// Two spheres of mass 1 that meet head on at 1 and 1; the ledger after they have separated.
 std::vector<double> head_on(const std::string &law, double *lost = nullptr)
 {
   Simulation simulation;
@@ -313,7 +315,7 @@ std::vector<double> head_on(const std::string &law, double *lost = nullptr)
   for (const auto &p : simulation.particles()) kinetic += p.kinetic_energy();
   if (lost) *lost = 1.0 - kinetic;
   auto e = simulation.compute_vector("ledger");
-  EXPECT_EQ(elastic(e), 0.0);    // they have parted
+  EXPECT_EQ(elastic(e), 0.0);    // they have separated
   return e;
 }
 
@@ -329,7 +331,7 @@ TEST(LedgerChannel, ElasticContactDissipatesNothing)
   }
 }
 
-// The unloading line gives back k1/k2 of what loading stored: e^2 = k1/k2.
+// The unloading line returns k1/k2 of the work of loading: e^2 = k1/k2.
 TEST(LedgerChannel, HysteresisTakesWhatAPlasticImpactLoses)
 {
   double lost;
@@ -365,7 +367,7 @@ TEST(LedgerChannel, NormalDashpotTakesOneMinusESquared)
   EXPECT_NEAR(e[NORMAL_DASHPOT], lost, 1e-3);
 }
 
-/// A sphere that nobody moves, pressed 0.01 into a wall; N = k1 0.01 = 100.
+/// A sphere that is not integrated, pressed 0.01 into a wall; N = k1 0.01 = 100.
 class HeldSphere : public testing::Test {
  protected:
   static constexpr double time_step = 1e-5, force = 100.0;
@@ -386,7 +388,7 @@ class HeldSphere : public testing::Test {
   }
 };
 
-// mu N over the distance slid; the spring holds mu N and the rest of the way.
+// mu N times the distance slid; the spring stores the rest of the displacement, at the force mu N.
 TEST_F(HeldSphere, SlidingTakesMuNTimesTheDistance)
 {
   const double kt = 4e3, mu = 0.3, speed = 2.0, f = mu * force;
@@ -424,7 +426,8 @@ TEST_F(HeldSphere, RollingTakesMuRNTimesTheAngle)
   EXPECT_EQ(e[HYSTERESIS] + e[NORMAL_DASHPOT] + e[TANGENTIAL_DASHPOT] + e[SLIDING], 0.0);
 }
 
-// 2/3 mu N a over the angle; the spring k_t a^2/2 holds that torque and the rest of the way.
+// 2/3 mu N a times the angle slid; the spring k_t a^2/2 stores the rest of the angle, at that
+// torque.
 TEST_F(HeldSphere, TwistingTakesTwoThirdsMuNATimesTheAngle)
 {
   const Vec3 omega(3, -4, -6);    // rolling is free
@@ -438,7 +441,7 @@ TEST_F(HeldSphere, TwistingTakesTwoThirdsMuNATimesTheAngle)
 
 /* ---------------------------------------------------------------------- plateau with f0 */
 
-/// A wall is pressed into a held sphere and drawn off again; the ledger after `cycles` of it.
+/// A wall is pressed into a held sphere and drawn off again; the ledger after `cycles` repetitions.
 std::vector<double> wall_cycle(const std::string &law, int cycles = 1)
 {
   Simulation simulation;
@@ -454,8 +457,9 @@ std::vector<double> wall_cycle(const std::string &law, int cycles = 1)
   return e;
 }
 
-// f0 pulls from delta = 0 on the way in and lets go at the plateau's begin, delta_p (1 - k_adh/k2),
-// on the way out: |f0| times that is created at each opening, and at most |f0| delta_p.
+// f0 attracts from delta = 0 on while the contact closes, but while it opens only down to the
+// plateau's begin, delta_p (1 - k_adh/k2). So |f0| times that overlap is created at each opening,
+// at most |f0| delta_p.
 TEST(PlateauWithPullOff, CreatesF0TimesTheOverlapWhereThePlateauBegins)
 {
   const double plastic = 0.01, f0 = 150.0;
@@ -466,7 +470,7 @@ TEST(PlateauWithPullOff, CreatesF0TimesTheOverlapWhereThePlateauBegins)
     const double plateau_begin = plastic * (1.0 - k_adh / 2e4);
     EXPECT_NEAR(created, f0 * plateau_begin, 1e-6);
     EXPECT_LE(created, f0 * plastic + 1e-6);
-    // and it is real: the wall has done that much less. A step of f0 falls within a time step.
+    // and the wall has done that much less work. The force's jump by f0 falls within a time step.
     const double stride = 1.8 * 5e-6, plateau = k_adh * plastic;
     EXPECT_NEAR(with[WALL_WORK], with[HYSTERESIS], (f0 + plateau) * stride);
     EXPECT_NEAR(without[WALL_WORK], without[HYSTERESIS], plateau * stride + 1e-5);
@@ -518,7 +522,7 @@ constexpr const char *ledger_laws[] = {
 
 class ParallelLedger : public testing::TestWithParam<const char *> {};
 
-// 1e-10 of the largest: the same motion to 1e-11, and other orders of summing.
+// 1e-10 of the largest: the motion agrees to 1e-11, and sums have another order.
 TEST_P(ParallelLedger, IsThatOfOneRankWithNewtonOnAndOff)
 {
   double worst = 0.0;

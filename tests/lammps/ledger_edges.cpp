@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// compute gran/eepa/energy where contacts begin and end in other ways than by an impact: in a
-// set-up, by a group, between bonded particles, at a rebuild of the neighbour list.
+// compute gran/eepa/energy where contacts do not begin or end by an impact: in a set-up, by a
+// group, between bonded particles, at a rebuild of the neighbour list.
 
 #include "packing.h"
 
@@ -25,8 +25,8 @@ double balance(const Simulation &simulation)
   return sum;
 }
 
-/// A sphere that overlaps another one or a wall from the start and comes on; the balance's change
-/// when they have parted, relative to the kinetic energy.
+/// A sphere that overlaps another one or a wall at the start and moves further in; change of the
+/// balance until they have separated, relative to the kinetic energy.
 double missed_from_an_overlap(bool wall, const std::string &coefficients, double time_step)
 {
   Simulation simulation;
@@ -50,8 +50,8 @@ double missed_from_an_overlap(bool wall, const std::string &coefficients, double
   return (balance(simulation) - before) / kinetic;
 }
 
-// The set-up's dashpot forces act in the first step, and no step has booked them ahead. Without
-// that 0.4% are missed between spheres and 0.8% at a wall.
+// Dashpot forces of the set-up act in the first step, and no step has booked them in advance.
+// Ignoring this would miss 0.4% between spheres and 0.8% at a wall.
 TEST(LedgerSetUp, DashpotsOfOverlapsThatAreGivenAreBooked)
 {
   for (const bool wall : {false, true}) {
@@ -62,8 +62,8 @@ TEST(LedgerSetUp, DashpotsOfOverlapsThatAreGivenAreBooked)
   }
 }
 
-// What a particle's contact with a wall stores when it leaves the wall's group is booked, between
-// two runs and within one.
+// Energy stored in a contact with a wall is booked when the particle leaves the wall's group,
+// between two runs and within one.
 TEST(LedgerGroup, WhatAContactStoresIsBookedWhenItsParticleLeavesTheGroup)
 {
   for (const bool within : {false, true}) {
@@ -147,8 +147,8 @@ TEST(LedgerHybrid, IsRefusedWhereForcesAreScaledBehindItsBack)
   }
 }
 
-// LAMMPS's computes of contacts refuse pair styles that reach beyond them; a ledger does not make
-// this one such a style, alone and in hybrid, in the second run neither.
+// LAMMPS's computes of contacts refuse pair styles with beyond_contact. A ledger does not make this
+// style one of these, neither alone nor in hybrid, and not in a second run.
 TEST(LedgerAndFabric, WorkTogether)
 {
   for (const char *style : {"", "hybrid/overlay "}) {
@@ -174,8 +174,8 @@ TEST(LedgerAndFabric, WorkTogether)
   }
 }
 
-// Contacts that part when a new list is made are booked as others are: a list in every step, and
-// one for the whole run.
+// Contacts that open when a new list is made are booked as all others: a list in every step
+// compared with one list for the whole run.
 TEST(ParallelLedgerRebuild, ChangesNothing)
 {
   const auto ledger = [](const char *often) {
@@ -201,7 +201,8 @@ TEST(ParallelLedgerRebuild, ChangesNothing)
   EXPECT_GT(every[3], 1.0);
 }
 
-// In the first step after a set-up the ledger asks who touched then: not the far side of a cylinder.
+// In the first step after a set-up the ledger asks which surface was touched: not the far side of a
+// cylinder.
 TEST(LedgerCylinder, IsKeptOnBothSidesOverRuns)
 {
   for (const double x : {1.52, 1.48, 1.2, 2.48, 2.52, 2.9}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// One program for every rank count: MPI starts once, rank 0 reports, and the other ranks speak
-// only of what failed on them.
+// One program for every number of ranks: MPI starts once, rank 0 reports, and the other ranks print
+// only their failures.
 
 #include <gtest/gtest.h>
 #include <mpi.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What LAMMPS lets a user combine with the pair style: newton, types and mixing, exclusions,
-// frozen and rigid particles, hybrid.
+// Features of LAMMPS combined with the pair style: newton, types and mixing, exclusions, frozen and
+// rigid particles, hybrid.
 
 #include "packing.h"
 
@@ -37,7 +37,7 @@ TEST(Newton, OnAndOffGiveTheSameMotion)
             1e-10);
 }
 
-// Two types whose cross coefficients are mixed, against the same typed out by the documented
+// Two types whose cross coefficients are mixed, against explicit coefficients by the documented
 // rules: stiffnesses and dashpots in series, f0, mu, mu_r and e geometrically.
 double series(double a, double b)
 {
@@ -57,7 +57,7 @@ TEST(Mixing, IsTheDocumentedOne)
       " kt " + exact(series(2.0 / 7.0 * 1e4, 5e3)) + " restitution 0.6 rolling constant 0.2";
   const auto mixed = run_packing(packing, own, 300);
   EXPECT_LT(difference(mixed, run_packing(packing, own + cross, 300)), 1e-10);
-  // it is not what either type alone gives
+  // the result differs from that of either type alone
   EXPECT_GT(difference(mixed, run_packing(packing, own + "pair_coeff 1 2 1e4 2e4 5e3 -1 0.5", 300)),
             1e-3);
 }
@@ -130,7 +130,8 @@ TEST(Rerun, HasTheForcesOfVirginContacts)
   EXPECT_NE(log.text().find("rerun takes every contact for a new one"), std::string::npos);
 }
 
-// m* against a frozen partner is the moving one's mass: only then does the dashpot give e.
+// m* against a frozen partner is the mass of the moving particle: only then does the dashpot give
+// e.
 TEST(Freeze, EffectiveMassIsTheMovingPartners)
 {
   for (const char *newton : {"on", "off"}) {
@@ -146,7 +147,7 @@ TEST(Freeze, EffectiveMassIsTheMovingPartners)
   }
 }
 
-// compute pair/local, too, takes the moving one's mass.
+// compute pair/local, too, takes the mass of the moving particle.
 TEST(Freeze, SingleHasTheForceOfTheRun)
 {
   Simulation simulation;
@@ -162,8 +163,8 @@ TEST(Freeze, SingleHasTheForceOfTheRun)
   EXPECT_NEAR(simulation.contacts().at(0).normal_force, force, 1e-9);
 }
 
-// A rigid dumbbell of mass 2 hits a sphere of mass 1 along its axis: m* = 2/3, and the relative
-// velocity comes out as e of what it was.
+// A rigid dumbbell of mass 2 hits a sphere of mass 1 along its axis: m* = 2/3, and the final
+// relative velocity is e times the initial one.
 TEST(Rigid, EffectiveMassIsTheBodys)
 {
   for (const char *newton : {"on", "off"}) {
@@ -235,7 +236,7 @@ TEST(Hybrid, IsTheSameAsAlone)
             1e-12);
 }
 
-// Two laws in one run, each for its own types: as a run of the one law for each.
+// Two laws in one run, each for its own types, against one run for each law.
 TEST(Hybrid, TakesBothLawsAtOnce)
 {
   const auto pair = [](double x, int type) {
@@ -270,7 +271,7 @@ TEST(Hybrid, TakesBothLawsAtOnce)
   EXPECT_NEAR(run(hybrid, both, 3), plateau, 1e-9);
 }
 
-// The stiffness of types, not of IDs or of who comes first in the neighbour list.
+// The stiffness depends on the types, not on the IDs or on the order in the neighbour list.
 TEST(Types, EachPairHasItsOwnCoefficients)
 {
   Simulation simulation;

@@ -82,7 +82,7 @@ TEST_P(ParallelPacking, MovesAsOnOneRank)
   }
   const auto a = alone.particles(), b = together.particles();
   EXPECT_LT(difference(a, b), 1e-10);
-  EXPECT_GT((a[0].x - start[0].x).norm(), 1.0);    // they did drift through ranks and boundaries
+  EXPECT_GT((a[0].x - start[0].x).norm(), 1.0);    // drifted through ranks and boundaries
 
   const auto n = alone.compute_vector("n"), m = together.compute_vector("n");
   EXPECT_GT(n[0], 400.0);
@@ -93,8 +93,8 @@ TEST_P(ParallelPacking, MovesAsOnOneRank)
               1e-9 * std::fabs(alone.compute("stress")));
   EXPECT_EQ(alone.compute("dt"), together.compute("dt"));
 
-  // ghosts have the velocities of half a step before the end until the next set-up, which would
-  // show in the dashpots' part of single()
+  // until the next set-up ghosts have the velocities of half a step before the end, which would
+  // affect the dashpots' part of single()
   alone.run(0);
   together.run(0);
   const auto c = alone.contacts(), d = together.contacts();
@@ -141,7 +141,8 @@ TEST(ParallelRigid, BodyMassesOfGhostsAreKnown)
     Simulation alone(MPI_COMM_SELF), together;
     for (auto *simulation : {&alone, &together}) {
       open(*simulation, linear, "p p p", newton);
-      // every third pair of neighbours becomes a dumbbell, all over the box; a dumbbell's own contact is left out
+      // every third pair of neighbours becomes a dumbbell, all over the box; a dumbbell's own
+      // contact is left out
       (*simulation)(
           "variable third atom (floor((id-1)/2)%3)==0\ngroup body variable third\n"
           "group free subtract all body\n"
@@ -222,8 +223,9 @@ MPI_Comm first_ranks(int count)
   return comm;
 }
 
-/// The state of every contact, with the z walls too: to the bit the same on any number of ranks.
-/// Which of two partners is i may change, but not their largest overlap and the springs' energies.
+/// The state of every contact, those with the z walls included: the same bits on any number of
+/// ranks. The order of two partners may change, but not their largest overlap and the energies of
+/// the springs.
 std::vector<std::vector<double>> histories(const Simulation &simulation)
 {
   std::vector<std::vector<double>> all;
@@ -235,7 +237,8 @@ std::vector<std::vector<double>> histories(const Simulation &simulation)
   return all;
 }
 
-// Written by one number of ranks and read by another; the reference goes on without a break.
+// Restart files written by one number of ranks and read by another; the reference runs without a
+// break.
 TEST(ParallelRestart, GoesOnWithAnotherNumberOfRanks)
 {
   const int all = rank_count();

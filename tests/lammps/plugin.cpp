@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// eepaplugin.so in a stock LAMMPS: it loads and runs, and one that was compiled for another LAMMPS
-// is refused. Each test starts a program of its own, whose plugins are not this process's.
+// eepaplugin.so in a stock LAMMPS: it loads and runs, and a plugin that was compiled for another
+// LAMMPS is refused. Each test starts a separate program, which does not have the plugins of this
+// process.
 
 #include "eepa_styles.h"
 #include "simulation.h"
@@ -98,7 +99,7 @@ TEST_F(StockLammps, RunsWithThePluginLoaded)
 
 TEST_F(StockLammps, FindsThePluginOnItsPath)
 {
-  // the folder of the build has one plugin; those that must be refused lie elsewhere
+  // the build folder has one plugin; those that must be refused are in other folders
   expect_impact(run(variable("EEPA_STOCK_LMP"), impact,
                     "LAMMPS_PLUGIN_PATH='" + folder_of(variable("EEPA_PLUGIN")) + "'"));
 }
@@ -134,7 +135,7 @@ TEST_F(StockLammps, RefusesAPluginForOtherIntegerSizes)
       << outcome.output;
 }
 
-// What the plugin's entry hands to LAMMPS: every style of the one list.
+// The plugin's entry passes every style of the one list to LAMMPS.
 std::set<std::string> registered;
 void remember(lammpsplugin_t *plugin, void *)
 {
