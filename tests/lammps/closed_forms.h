@@ -12,9 +12,9 @@ namespace eepa_test {
 // The contact starts at delta = 0 with energy E = m* v^2/2 and ends at delta = 0. Loading takes
 // f = f0 + k1 delta^n up to delta_max = D, where all of E has been used up:
 //   E = k1 D^(n+1)/(n+1) + f0 D                                                            (1)
-// What the contact gives back on the way out is the integral of its force from 0 to D. Past the
-// point of zero force that force only attracts, so that the particles part if and only if the
-// returned energy W is positive, and then e^2 = W/E.
+// Unloading returns W, the integral of the contact's force from 0 to D. Past the point of zero
+// force that force only attracts, so that the particles separate if and only if W is positive, and
+// then e^2 = W/E.
 //
 // linear: with P = D^n (1 - k1/k2) = delta_p^n, the k2 line from D down to
 // delta_a^n = k2 P/(k2 + k_adh), the adhesive branch from there to 0; f0 acts all the way:
@@ -26,9 +26,9 @@ namespace eepa_test {
 // line from S down to A = p (1 - k_adh/k2), or to 0 where that is negative; the plateau -k_adh p,
 // which has no f0, from A to 0:
 //   W = k1 (D^2 - S^2)/2 + k2 [(S - p)^2 - (A - p)^2]/2 + f0 (D - A) - k_adh p A
-// For k2 = 2 k1, f0 = 0, k_adh < k2: W/E = 1/2 - (k_adh/k1) (1 - k_adh/(2 k2))/2.
-// With f0 < 0 the plateau is left without the work of f0 over A: |f0| A comes from nowhere, the
-// price of the article's step.
+// For k2 = 2 k1, f0 = 0, k_adh < k2: W/E = 1/2 - (k_adh/k1) (1 - k_adh/(2 k2))/2. With f0 < 0 the
+// plateau lacks the work of f0 over A: the energy |f0| A is created, by the article's jump of the
+// force.
 
 struct HeadOn {
   double max_overlap;        ///< D

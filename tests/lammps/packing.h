@@ -8,7 +8,7 @@
 
 namespace eepa_test {
 
-/// Uniform in [-1, 1]; the same numbers everywhere, which std distributions are not.
+/// Uniform in [-1, 1]; the same numbers with every library, unlike std distributions.
 inline double uniform(std::mt19937 &generator)
 {
   return static_cast<double>(generator()) / 2147483647.5 - 1.0;

@@ -10,12 +10,12 @@
 
 namespace eepa_test {
 
-/// A small problem out of this package's features, drawn by a seed: law, coefficients, walls, their motion,
-/// particles, and what happens between runs. To have a new feature tested by every comparison, add it to one of
-/// the functions below that draw.
+/// A small random problem with this package's features, drawn from a seed: law, coefficients,
+/// walls, their motion, particles, and commands between runs. Add a new feature to one of the
+/// functions below that draw, and every comparison tests it.
 class RandomScript {
  public:
-  /// A run and what the user does after it, before the next one.
+  /// A run and the commands between it and the next one.
   struct Stage {
     int steps;
     std::string then;

@@ -24,7 +24,7 @@ std::vector<std::vector<double>> histories(const Simulation &simulation)
 {
   std::vector<std::vector<double>> all;
   for (const auto &contact : simulation.contacts()) {
-    // which of the two is i may change; what does not is their largest overlap and energies
+    // the order of i and j may change, but not their largest overlap and energies
     all.push_back({contact.overlap(), contact.max_overlap(), contact.plastic_overlap(),
                    contact.p[11], contact.p[12], contact.p[13]});
   }
@@ -132,7 +132,7 @@ TEST_P(ParallelOldListRestart, FindsThePartnersOfTheRunsEnd)
   const auto expected = histories(original);
   ASSERT_GT(expected.size(), 400u);
 
-  // without a set-up after a run the histories beside the list are the newer ones again
+  // after a run without a set-up the histories beside the list are the newer ones again
   move_under_an_old_list(gone_on, GetParam(), 200);
   gone_on("restart 300 " + amid.name() + " " + amid.name() + "\nrun 100 pre no post no");
 
@@ -143,7 +143,7 @@ TEST_P(ParallelOldListRestart, FindsThePartnersOfTheRunsEnd)
   }
 }
 
-// write_restart moves particles to where they belong; the neighbour list still has the old places.
+// write_restart moves particles to their processors; the neighbour list still has the old indices.
 TEST_P(ParallelOldListRestart, IsNotFollowedByARunWithoutPreparation)
 {
   const ScratchFile file(".restart"), second(".restart");
@@ -164,7 +164,7 @@ TEST_P(ParallelOldListRestart, IsNotFollowedByARunWithoutPreparation)
                       "run with pre no after a command that set the system up anew"));
 }
 
-// LAMMPS frees what histories are kept in when the size of its pages changes.
+// LAMMPS frees the pages that hold histories when the page size changes.
 TEST_P(ParallelOldListRestart, OutlivesOtherPageSizes)
 {
   Simulation usual, changed;
@@ -208,7 +208,7 @@ TEST_P(ParallelOldListRestart, HasTheHistoriesOfAnInterruptedRun)
 
 INSTANTIATE_TEST_SUITE_P(Newton, ParallelOldListRestart, testing::Values("on", "off"));
 
-// A particle with more contacts than LAMMPS leaves room for, when particles change processors.
+// A particle with more contacts than LAMMPS reserves room for, when particles change processors.
 TEST(ParallelRestartOfRestart, TakesAllContactsOfAParticleAlong)
 {
   const ScratchFile file(".restart");
@@ -274,7 +274,7 @@ TEST(ParallelRestartOfRestart, IsWrittenAgainWithoutARunBetween)
 
 TEST(Restart, DoesNotTakeAnotherPairStyleBeforeForItsHistory)
 {
-  // in the run that writes, gran/eepa is the second style of its kind that was ever made
+  // in the run that writes, gran/eepa is the second style of its kind that the instance has made
   const ScratchFile file(".restart");
   Simulation original, restarted;
   original.open_box(3.0);
@@ -356,7 +356,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, WallRestart,
                                          "rolling sds 1e3 1 0.1 wall zplane 0 NULL",
                                          "twisting marshall wall zplane 0 NULL"));
 
-// What can not be restored is refused by name.
+// Histories and settings that can not be restored are refused by name.
 class RestartMismatch : public testing::Test {
  protected:
   const ScratchFile file{".restart"};
@@ -441,7 +441,7 @@ TEST_F(RestartMismatch, OfTheFormatIsRefused)
 {
   write("");
   std::string bytes = file.text();
-  // the package's format number, 2.0, stands before the law, the exponent and scale: 2 1 1 0
+  // the package's format number, 2.0, comes before the law, the exponent and scale: 2 1 1 0
   const double settings[] = {2.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0};
   const std::string before(reinterpret_cast<const char *>(settings), sizeof(settings));
   const auto at = bytes.find(before);
@@ -454,7 +454,8 @@ TEST_F(RestartMismatch, OfTheFormatIsRefused)
                       "the restart file has format 7 of gran/eepa, this version reads 2"));
 }
 
-// write_data keeps the coefficients, given and mixed; it has no histories, as LAMMPS's has none.
+// write_data keeps the coefficients, given and mixed, but no histories, as with LAMMPS's own
+// styles.
 TEST(DataFile, KeepsThePairCoefficients)
 {
   for (const char *which : {"ii", "ij"}) {
@@ -479,7 +480,7 @@ TEST(DataFile, KeepsThePairCoefficients)
     EXPECT_NE(
         file.text().find(which[1] == 'j' ? "PairIJ Coeffs # gran/eepa" : "Pair Coeffs # gran/eepa"),
         std::string::npos);
-    // forces, not motion: a data file has 16 digits, and positions a rounding in the last
+    // forces are compared, not motion: a data file has 16 digits, so positions differ in the last
     const auto a = original.particles(), b = reread.particles();
     double largest = 0.0, worst = 0.0;
     for (std::size_t k = 0; k < a.size(); k++) {

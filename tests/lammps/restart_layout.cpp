@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Histories of a restart file that another pair style, or another script, takes up: right, or
+// Histories of a restart file that another pair style, or another script, reads: they are right, or
 // refused by name before a step is run, and a refusal loses nothing.
 
 #include "packing.h"
@@ -65,8 +65,8 @@ std::string read(const ScratchFile &file)
   return "read_restart " + file.name() + "\n" + box;
 }
 
-// LAMMPS destroys hybrid's sub-styles when the script names them again, as it must to give
-// pair_coeffs, and with them everything that they know of the restart file.
+// A script must name hybrid's sub-styles again to give pair_coeffs. LAMMPS then destroys the
+// sub-styles and with them everything that they read from the restart file.
 struct Scripts {
   const char *name;
   std::string written, other, same;
@@ -154,7 +154,7 @@ TEST(RestartLaw, ThatChangesBetweenRunsIsSaid)
             std::string::npos);
 }
 
-// Histories are found by the place of the sub-style; with another order those of one type go to
+// Histories are found by the position of the sub-style; with another order those of one type go to
 // the other, which has no such pairs.
 TEST(RestartOrder, OfSubStylesThatIsAnotherOneIsSaid)
 {
@@ -173,8 +173,8 @@ TEST(RestartOrder, OfSubStylesThatIsAnotherOneIsSaid)
 
 class ParallelDeletion : public testing::TestWithParam<const char *> {};
 
-// LAMMPS moves atoms into the places of those that are deleted, but not what a restart file has
-// for them.
+// LAMMPS moves atoms into the slots of deleted ones, but not the data that a restart file has for
+// them.
 TEST_P(ParallelDeletion, BetweenReadRestartAndTheFirstRunIsRefused)
 {
   const Written original("pair_style gran/eepa linear\npair_coeff * *" + base, true, GetParam());
@@ -193,7 +193,7 @@ TEST_P(ParallelDeletion, BetweenReadRestartAndTheFirstRunIsRefused)
 }
 INSTANTIATE_TEST_SUITE_P(Newton, ParallelDeletion, testing::Values("on", "off"));
 
-// What a file has where a history was, and that it is noticed.
+// Damage to the histories in a file is detected.
 TEST(DamagedRestart, IsRefused)
 {
   const Written original("pair_style gran/eepa linear scale 0.75\npair_coeff * *" + base);
@@ -201,7 +201,7 @@ TEST(DamagedRestart, IsRefused)
   const auto bytes_of = [](double number) {
     return std::string(reinterpret_cast<const char *>(&number), sizeof(number));
   };
-  // what stands in the file once: a contact's largest overlap, a reference diameter
+  // numbers that occur in the file only once: a contact's largest overlap, a reference diameter
   const double max_overlap = original.expected.at(7).at(2);
   const struct {
     double value, damaged;

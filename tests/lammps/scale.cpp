@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Contract section 2: with `scale`, lengths and times x 2 at the same density and velocities give
-// a similar motion, stress for stress. All factors are powers of two, so that the arithmetic is
-// the same and the motion agrees to the last bit.
+// Contract section 2: with `scale`, lengths and times x 2 at the same density and velocities give a
+// similar motion with equal stresses. All factors are powers of two, so that the arithmetic is the
+// same and the motion agrees to the last bit.
 
 #include "packing.h"
 
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Scale, testing::ValuesIn(laws), [](const auto &in
   return std::string(info.param.name);
 });
 
-// s = d/d_ref = 3, no power of two: one contact by the formula of contract section 2.
+// s = d/d_ref = 3, not a power of two: one contact by the formula of contract section 2.
 TEST(ScaleFormula, StiffnessGoesWithSAndPullOffWithItsSquare)
 {
   Simulation simulation;

@@ -25,7 +25,7 @@ constexpr double pi = 3.14159265358979323846;
 /// Density at which a sphere of diameter 1 has mass 1.
 constexpr double unit_density = 6.0 / pi;
 
-/// What a test puts into the box.
+/// A particle that a test creates.
 struct Sphere {
   Vec3 x = Vec3::Zero();
   Vec3 v = Vec3::Zero();
@@ -37,7 +37,7 @@ struct Sphere {
 
 double mass_of(const Sphere &sphere);
 
-/// A particle as LAMMPS has it; x is unwrapped.
+/// A particle's state in LAMMPS; x is unwrapped.
 struct Particle {
   int id, type;
   Vec3 x, v, f, omega, torque;
@@ -46,7 +46,7 @@ struct Particle {
   double kinetic_energy() const;    ///< of translation and rotation
 };
 
-/// A contact as compute property/local and pair/local give it, on the particle of lower ID.
+/// A contact from compute property/local and pair/local; forces act on the particle of lower ID.
 struct PairContact {
   int i, j;    ///< IDs, in the order of LAMMPS's neighbour list
   double distance, energy;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Particles that grow, and particles that are still to come: neighbour lists reach for them, and
-// the bound on the time step knows of them.
+// Particles that grow, and particles that are still to be inserted: neighbour lists reach far
+// enough for them, and the bound on the time step includes them.
 
 #include "packing.h"
 
@@ -44,7 +44,7 @@ class ParallelGrowth : public testing::TestWithParam<Skin> {
   }
 };
 
-// The particles do not move, so that LAMMPS alone would never make a new list.
+// The particles do not move, so that LAMMPS by itself would never make a new list.
 TEST_P(ParallelGrowth, FindsContactsWhereverTheyForm)
 {
   Simulation simulation;
@@ -58,7 +58,7 @@ TEST_P(ParallelGrowth, FindsContactsWhereverTheyForm)
 
 TEST_P(ParallelGrowth, BeyondTheListsIsNamed)
 {
-  if (std::string(GetParam().newton) == "off") return;    // one rank stops, and with it the test
+  if (std::string(GetParam().newton) == "off") return;    // one rank stops, which ends the test
   Simulation simulation(MPI_COMM_SELF);
   open(simulation, "largest 1.5");
   EXPECT_TRUE(refuses(simulation, "run 250 post no",
@@ -123,16 +123,16 @@ TEST(ParallelTimeStep, OfParticlesThatAreStillToCome)
   simulation("fix move all nve/sphere");
   simulation.run(0);
   EXPECT_TRUE(std::isinf(simulation.compute("none")));
-  // the lightest one beside the largest one: k2 (0.25 + 0.75)
+  // the lightest particle beside the largest: k2 (0.25 + 0.75)
   const double mass = pi / 6.0 * 2.0 * 0.125;
   EXPECT_NEAR(simulation.compute("one"), 0.2 * std::sqrt(mass / 2e4), 1e-15);
-  // of type 2: with its like, 8e4 0.8; with type 1, mixed, 3.2e4 (0.4 + 0.75)
+  // a particle of type 2: with its own type 8e4 0.8; with type 1, mixed, 3.2e4 (0.4 + 0.75)
   const double other = pi / 6.0 * 0.512;
   const double least = std::min({0.2 * std::sqrt(mass / 2e4), 0.2 * std::sqrt(other / 6.4e4),
                                  0.2 * std::sqrt(mass / (3.2e4 * (0.25 + 0.4))),
                                  0.2 * std::sqrt(other / (3.2e4 * (0.4 + 0.75)))});
   EXPECT_NEAR(simulation.compute("two"), least, 1e-15);
-  // and a stiff wall under them
+  // and a stiff wall below the particles
   simulation("fix w all wall/gran/eepa linear scale 1 coeff 1e6 1e6 0 0 0 wall zplane 0 NULL");
   simulation.run(0);
   EXPECT_NEAR(simulation.compute("one"), 0.2 * std::sqrt(mass / (1e6 * 0.5)), 1e-15);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// pair_style gran/eepa/omp: the motion of gran/eepa to rounding, with any number of threads, and
-// the same bits each time; everything that the serial style does beside forces.
+// pair_style gran/eepa/omp: the motion of gran/eepa to rounding with any number of threads, the
+// same bits each time, and all other features of the serial style.
 
 #include "packing.h"
 
@@ -62,7 +62,7 @@ TEST_P(ParallelThreads, GiveTheMotionOfOne)
   for (const char *newton : {"on", "off"}) {
     const auto serial = motion(0, newton);
     for (const int threads : {1, 2, 5}) {
-      if (ranks() * threads > 8) continue;    // a handful of cores would be at it for minutes
+      if (ranks() * threads > 8) continue;    // takes minutes on few cores
       const auto threaded = motion(threads, newton);
       EXPECT_LT(difference(serial, threaded), 1e-10) << threads << " threads, newton " << newton;
       EXPECT_EQ(difference(threaded, motion(threads, newton)), 0.0) << "another run";
@@ -70,7 +70,7 @@ TEST_P(ParallelThreads, GiveTheMotionOfOne)
   }
 }
 
-// More threads than particles: LAMMPS leaves such a rank to one of them.
+// More threads than particles: one thread does all the work of such a rank.
 TEST_P(ParallelThreads, MayOutnumberParticles)
 {
   Simulation serial, threaded;
@@ -116,7 +116,7 @@ TEST_P(ParallelThreads, ReadAndWriteTheSameRestarts)
   written("write_restart " + file.name());
   written.run(150);
   for (const int threads : {0, 3}) {
-    // made only now: LAMMPS takes the number of threads that the last one in the process had
+    // made only now: LAMMPS takes over the number of threads of the last instance in the process
     Simulation other;
     if (threads) other("package omp " + std::to_string(threads) + "\nsuffix omp");
     other("read_restart " + file.name() +
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, ParallelThreads, testing::ValuesIn(laws), [](cons
   return std::string(info.param.name);
 });
 
-// The error comes from the thread that found it, and ends the run as one of LAMMPS's.
+// An error that a thread raises ends the run like any error of LAMMPS.
 TEST(Threads, NameTheParticlesOfARunThatBlowsUp)
 {
   Simulation simulation;

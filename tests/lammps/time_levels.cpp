@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// A fine grain in the groove of two large spheres, 1/20 of their radius: it rolls on both, with
-// most of its spin along the normals, and leaves where nothing presses it into the groove. A spring
-// that is wound with the normal of another time, or that does not turn with the pair about the
-// normal, comes to pull the grain into the groove, and it stays to 90 degrees, or for ever.
+// A fine grain in the groove between two large spheres of 20 times its radius rolls on both, with
+// most of its spin along the normals, and leaves where no force presses it into the groove. A
+// spring that is wound with the normal of another time, or that does not turn with the pair about
+// the normal, pulls the grain into the groove, so that it stays to 90 degrees, or for ever.
 
 #include "simulation.h"
 
@@ -21,8 +21,9 @@ namespace {
 
 constexpr double large = 1.0, small = 0.05, start = 0.2, gravity = 1.0;
 
-/// The same of rigid spheres: one degree of freedom, which rolls until mu N does not suffice and
-/// slides from there on. Angle from the top at which the normal force has come to nothing [degrees]
+/// The problem for rigid spheres: one degree of freedom, which rolls until mu N does not suffice
+/// and slides from there on.
+/// \return angle from the top at which the normal force has fallen to 0 [degrees]
 double rigid_grain_leaves_at(double mu)
 {
   const double reach = large + small, path = std::sqrt(reach * reach - large * large),
@@ -46,7 +47,7 @@ double grain_leaves_at(double mu, double stiffness_over_mass, double time_step)
   const double mass = std::pow(2.0 * small, 3), k = stiffness_over_mass * mass;
   const double path = std::sqrt(std::pow(large + small, 2) - large * large),
                cosine = path / (large + small);
-  // at rest: what the weight presses it in by
+  // overlap at rest under the weight
   const double overlap = mass * gravity * std::cos(start) / (2.0 * cosine) / k;
   const double there = std::sqrt(std::pow(large + small - overlap, 2) - large * large);
   Simulation simulation;
@@ -63,7 +64,7 @@ double grain_leaves_at(double mu, double stiffness_over_mass, double time_step)
   const int part = static_cast<int>(0.002 / time_step);
   for (double time = 0.0; time < 8.0; time += part * time_step) {
     simulation.run(part);
-    if (simulation.compute_vector("c")[0] > 1.0) continue;    // that of the two large ones
+    if (simulation.compute_vector("c")[0] > 1.0) continue;    // 1: that of the two large ones
     const Vec3 x = simulation.particle(3).x;
     return std::atan2(x.y(), x.z()) * 180.0 / pi;
   }
@@ -85,12 +86,12 @@ TEST(Groove, GrainLeavesAtTheSamePlaceWithAnyTimeStep)
 {
   const double fine = grain_leaves_at(0.5, 3e4, 1.25e-4);
   for (const double time_step : {1e-3, 5e-4}) {
-    // the step's end at which it is seen: 0.002 at a speed of 0.6, over a path of radius 0.32
+    // resolution by the steps: 0.002 at a speed of 0.6, over a path of radius 0.32
     EXPECT_NEAR(grain_leaves_at(0.5, 3e4, time_step), fine, 0.25) << time_step;
   }
 }
 
-// du/dt against the normals of two places.
+// du/dt against the normals at two positions.
 TEST(WallSurfaces, NormalOfACylinderTurnsWithTheMotion)
 {
   WallSurfaces cylinder;

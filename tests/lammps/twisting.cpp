@@ -18,7 +18,7 @@ namespace {
 constexpr double radius = 0.5, mass = 1.0, inertia = 0.4 * mass * radius * radius;
 constexpr double k = 1e4, kt = 4e3, weight = 20.0;
 
-/// A sphere that rests on the plane z = 0, its weight in balance, and spins about z.
+/// A sphere in equilibrium on the plane z = 0 that spins about z.
 void spin_on_plane(Simulation &simulation, const std::string &wall, double omega, double time_step,
                    const Vec3 &more = Vec3::Zero())
 {
@@ -37,8 +37,8 @@ std::string own_wall(double mu, const std::string &damping = "")
 
 const double contact_radius = std::sqrt(radius * weight / k);
 
-// The torque 2/3 mu a N stops it in I omega/torque, at an angle of I omega^2/(2 torque); then the
-// spring swings with what it holds.
+// The torque 2/3 mu a N stops the sphere in I omega/torque, at an angle of I omega^2/(2 torque);
+// then the spring oscillates with the energy that it stores.
 TEST(Twisting, SpinningSphereIsStoppedByTheBoundTorque)
 {
   const double mu = 0.3, omega = 5.0, torque = 2.0 / 3.0 * mu * contact_radius * weight;
@@ -50,11 +50,11 @@ TEST(Twisting, SpinningSphereIsStoppedByTheBoundTorque)
   spin_on_plane(simulation, own_wall(mu), omega, dt);
   simulation("compute e all gran/eepa/energy\n"
              "fix way all ave/time 1 1 1 c_e[10] c_e[11] mode scalar");
-  // until the bound is reached the spring takes the place of the slider
+  // until the bound is reached the spring acts and not the slider
   const double wound = torque / stiffness;
   simulation.run(half);
   Particle p = simulation.particle(1);
-  // of first order in the angle that winds the spring: the torque is less while it does
+  // of first order in the angle that winds the spring, while the torque is smaller
   const double late = 0.5 * wound / omega * torque / inertia;
   EXPECT_NEAR(p.omega.z(), 0.5 * omega + late, 0.1 * late);
   EXPECT_EQ(p.omega.x(), 0.0);
@@ -64,7 +64,7 @@ TEST(Twisting, SpinningSphereIsStoppedByTheBoundTorque)
   EXPECT_NEAR(e[9], 0.5 * torque * wound, 1e-9);
   EXPECT_NEAR(0.5 * inertia * (omega * omega - p.omega.squaredNorm()), e[9] + e[10], 1e-6);
   EXPECT_EQ(e[7], 0.0);
-  // past the stop there is no more than the spring's energy, for ever
+  // after the stop the kinetic energy never exceeds that of the spring
   simulation.run(half + 1000);
   const double swinging = 0.5 * torque * wound;
   double latest = 0.0;
@@ -90,7 +90,7 @@ TEST(Twisting, SpinsForEverWithoutIt)
   EXPECT_EQ(simulation.particle(1).omega.z(), 5.0);
 }
 
-// omega = sqrt(k_t a^2/2 / I), and with the dashpot of B_t a^2/2 it dies away in 4 I/(B_t a^2)
+// omega = sqrt(k_t a^2/2 / I); with the dashpot of B_t a^2/2 it decays in 4 I/(B_t a^2)
 TEST(Twisting, SmallTwistsSwingAtTheirFrequencyAndDieAway)
 {
   const double a2 = contact_radius * contact_radius, swing = std::sqrt(0.5 * kt * a2 / inertia);
@@ -124,8 +124,8 @@ std::vector<double> course(const std::string &wall, double omega, int parts)
   return spins;
 }
 
-// Pure twist has no lever arm: the same as LAMMPS's to rounding, with and without dashpot, as far as
-// nothing slides. LAMMPS's bound has the normal dashpot, which does nothing here.
+// Pure twist has no lever arm, so it agrees with LAMMPS's to rounding, with and without dashpot, as
+// long as nothing slides. LAMMPS's bound contains the normal dashpot, which has no force here.
 TEST(Twisting, IsLammpsMarshallWhileItSticks)
 {
   for (const bool dashpot : {false, true}) {
@@ -144,8 +144,8 @@ TEST(Twisting, IsLammpsMarshallWhileItSticks)
   }
 }
 
-// While it slides both have the bound against the spin; where it ends LAMMPS goes by the sign of
-// the spin, and this law by that of the torque, which are the same for a sphere that comes to rest.
+// While it slides both have the bound against the spin. At the end LAMMPS takes the sign of the
+// spin, and this law that of the torque, which are the same for a sphere that comes to rest.
 TEST(Twisting, IsLammpsMarshallWhileItSlides)
 {
   const auto own = course(own_wall(0.3), 5.0, 60);
@@ -157,7 +157,7 @@ TEST(Twisting, IsLammpsMarshallWhileItSlides)
   EXPECT_LT(own.back(), 4.5);
 }
 
-/// Two spheres that nothing moves, so that they twist only; their spins.
+/// Two spheres whose centres do not move, so that they only twist; returns their spins.
 std::vector<double> twist_pair(const std::string &pair, const std::string &swap, int steps = 400)
 {
   Simulation simulation;
@@ -192,7 +192,7 @@ TEST(Twisting, OfTwoSpheresIsLammpsMarshallAndConservesSpin)
   }
 }
 
-// Restarted in the middle of a twist: to the bit, at a pair and at a wall.
+// A restart in the middle of a twist changes no bit, at a pair and at a wall.
 TEST(Restart, KeepsATwistToTheBit)
 {
   const ScratchFile file(".restart");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// A wall looks at the particles near it only, and must lose no contact by that: however wall and
-// particles move, it is to the bit what it is where every particle is looked at in every step.
+// A wall visits only the particles near it and must lose no contact by that: for any motion of wall
+// and particles the bits are those of a run that visits every particle in every step.
 
 #include "simulation.h"
 
@@ -17,14 +17,14 @@ namespace {
 constexpr int POSITION = 4, CONTACTS = 6;
 constexpr double skin = 0.1;    // of open_box()
 
-// With the first, neighbour lists bound how far particles go. With the others they do not, so that
-// the wall looks at all in every step.
+// With the first setting neighbour lists bound how far particles move. With the others they do not,
+// so that the wall visits all particles in every step.
 constexpr const char *bounded = "neigh_modify every 1 delay 0 check yes";
 constexpr const char *looks_at_all[] = {"neigh_modify every 200 delay 0 check yes",
                                         "neigh_modify every 1 delay 200 check yes",
                                         "neigh_modify every 1 delay 0 check yes once yes"};
 
-/// Without a set-up, at which the wall would look at all.
+/// Runs without a set-up, in which the wall would visit all particles.
 void go_on(Simulation &simulation, int steps)
 {
   simulation("run " + std::to_string(steps) + " pre no post no");
@@ -35,10 +35,10 @@ void go_on(Simulation &simulation, int steps)
 struct Gas {
   const char *name, *walls;
   double speed;    ///< of the particles
-  int steps;       ///< between two looks
+  int steps;       ///< between two comparisons
 };
 
-/// Particles that meet walls only, so that nothing depends on their order.
+/// Particles that touch only walls, so that nothing depends on their order.
 std::vector<Sphere> gas(double speed)
 {
   std::mt19937 generator(7);
@@ -59,7 +59,7 @@ std::vector<Sphere> gas(double speed)
 
 void open_gas(Simulation &simulation, const Gas &gas_of, const std::string &neighbours)
 {
-  simulation("atom_modify sort 0 0.0");    // the sum of forces on a platen goes by order
+  simulation("atom_modify sort 0 0.0");    // the sum of forces on a platen depends on their order
   simulation.open_box(5.0);
   simulation.create(gas(gas_of.speed));
   const std::string walls = gas_of.walls,
@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, GasBetweenWalls, testing::ValuesIn(gases), [](
 
 /* ---------------------------------------------------------------------- at the edge of reach */
 
-/// Spheres of radius 0.5 below a wall at z = 0.5 + gap; nothing but the test moves them.
+/// Spheres of radius 0.5 below a wall at z = 0.5 + gap; only the test moves them.
 class Approach : public testing::Test {
  protected:
   static constexpr double dt = 1e-4, k1 = 1e4;
@@ -143,7 +143,7 @@ class Approach : public testing::Test {
   double force() const { return simulation.fix("wall", 3); }
 };
 
-// Wall and particle go 0.049 towards each other: neither alone asks for a new list.
+// Wall and particle move 0.049 towards each other: neither motion alone needs a new list.
 TEST_F(Approach, OfBothWithinTheSkinIsSeen)
 {
   open(0.097, "velocity 0 0 -49", "linear 0 0 49");
@@ -153,7 +153,7 @@ TEST_F(Approach, OfBothWithinTheSkinIsSeen)
   EXPECT_LT(2.0 * 10.0 * 49.0 * dt, skin);
 }
 
-// The wall goes by more than the skin in each step.
+// The wall moves by more than the skin in each step.
 TEST_F(Approach, OfAWallFasterThanTheSkinIsSeen)
 {
   open(0.5, "velocity 0 0 -1500", "linear 0 0 0");
@@ -164,12 +164,12 @@ TEST_F(Approach, OfAWallFasterThanTheSkinIsSeen)
   EXPECT_NEAR(force(), k1 * overlap(), 1e-8);
 }
 
-// It has come near when the particle was as far away as half the skin lets it be, and meets it where
-// the particle is nearest: almost the whole skin closer, without a new neighbour list.
+// The wall comes near while the particle is as far away as half the skin allows, and meets the
+// particle at its nearest point: almost the whole skin closer, without a new neighbour list.
 TEST_F(Approach, OfAParticleThatSwingsWithinTheSkinIsSeen)
 {
-  // z = 0.049 sin(2 pi t/0.02): lowest at step 150, where the wall has gone by half the skin, highest
-  // at step 250
+  // z = 0.049 sin(2 pi t/0.02): lowest at step 150, where the wall has moved by half the skin,
+  // highest at step 250
   open(0.13, "velocity 0 0 -3.4", "wiggle 0 0 0.049 0.02");
   simulation.run(230);
   EXPECT_EQ(force(), 0.0);
@@ -178,8 +178,8 @@ TEST_F(Approach, OfAParticleThatSwingsWithinTheSkinIsSeen)
   EXPECT_NEAR(force(), k1 * overlap(), 1e-8);
 }
 
-// A wall that leaves in one step, by more than the margin, is gone all the same: what it has left
-// behind has no history when it comes back.
+// A wall leaves its particles in one step, by more than the margin. Their histories must be gone
+// when it comes back.
 TEST_F(Approach, AfterAWallHasJumpedAwayIsVirgin)
 {
   simulation("variable speed equal -100*(step<=5)+4000*(step==6)-3970*(step==8)");
@@ -196,8 +196,8 @@ TEST_F(Approach, AfterAWallHasJumpedAwayIsVirgin)
   EXPECT_NEAR(force(), k1 * overlap(), 1e-8);
 }
 
-// A set-up call writes the table and leaves no history: what is taken away after it is not looked at
-// again, and its row is 0 all the same.
+// A set-up call writes the table and leaves no history. A particle that is moved away after it is
+// not visited again, but its row must become 0.
 TEST_F(Approach, HasNoRowInTheTableAfterItIsTakenAway)
 {
   open(-0.02, "", "linear 0 0 0");
@@ -209,8 +209,8 @@ TEST_F(Approach, HasNoRowInTheTableAfterItIsTakenAway)
   for (const double value : simulation.fix_row("wall", 1)) EXPECT_EQ(value, 0.0);
 }
 
-// Neighbour lists that are made for a group do not say how far the others have gone. LAMMPS does not
-// even clear their forces, so that they are carried.
+// Neighbour lists that are made for a group do not bound the motion of other particles. LAMMPS does
+// not even clear the forces on these, so the test moves them.
 TEST(ParticleOutsideOfTheNeighbourGroup, IsSeen)
 {
   Simulation simulation;
@@ -224,7 +224,7 @@ TEST(ParticleOutsideOfTheNeighbourGroup, IsSeen)
   EXPECT_NEAR(simulation.fix("wall", 3), 1e4 * 0.01, 1e-8);
 }
 
-// fix adapt makes a particle grow until it touches: no neighbour list says so.
+// fix adapt makes a particle grow until it touches, without a new neighbour list.
 TEST(GrowingParticle, IsSeen)
 {
   Simulation simulation;
@@ -237,14 +237,14 @@ TEST(GrowingParticle, IsSeen)
              "fix wall all wall/gran/eepa linear coeff 1e4 4e4 0 0 0 wall zplane NULL 0.7");
   simulation.run(410);
   EXPECT_NEAR(simulation.fix("wall", 3), 1e4 * 0.005,
-              6.0);    // of this step's or the last diameter
+              6.0);    // by the diameter of this step or of the last one
 }
 
 /* ---------------------------------------------------------------------- insertion and ranks */
 
 class ParallelCandidates : public testing::TestWithParam<const char *> {
  protected:
-  /// Particles on a floor that are carried through ranks and boundaries, and more that fall in.
+  /// Particles on a floor that move through ranks and boundaries, and more that fall in.
   static void open_sliding(Simulation &simulation, const std::string &neighbours)
   {
     int ranks;
@@ -287,7 +287,7 @@ TEST_P(ParallelCandidates, AreNotLostOnTheWay)
   EXPECT_GT(touching, 80.0);
 }
 
-// They are put above the floor in mid-run and thrown onto it.
+// Particles are inserted above the floor in mid-run and thrown onto it.
 TEST_P(ParallelCandidates, AreFoundAmongThoseThatComeInMidRun)
 {
   Simulation alone(MPI_COMM_SELF), together;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What a wall does to particles: mirror image, both planes, cylinder, group, force sums, table.
+// Contacts of walls with particles: mirror image, both planes, cylinder, group, force sums, table.
 
 #include "simulation.h"
 
@@ -12,7 +12,7 @@ using namespace eepa_test;
 
 namespace {
 
-/// A box with particles that meet walls only, not each other.
+/// A box with particles that touch only walls, not each other.
 void open_walls_only(Simulation &simulation, const std::vector<Sphere> &spheres)
 {
   simulation.open_box(5.0);
@@ -23,8 +23,8 @@ void open_walls_only(Simulation &simulation, const std::vector<Sphere> &spheres)
 class MirrorParticle : public testing::TestWithParam<const char *> {};
 
 // A particle that hits its mirror image overlaps it by 2 delta where it overlaps a plane between
-// the two by delta, at twice the velocity: with k and B of one half (f0 as it is) both feel the
-// same force at every instant. d = 2 R in both, so that `scale` changes nothing in that.
+// the two by delta, at twice the velocity. With half of k and B and the same f0, both have the same
+// force at every instant. d = 2 R in both, so that this also holds with `scale`.
 TEST_P(MirrorParticle, MovesAsAParticleAtAWall)
 {
   const std::string style = GetParam();
@@ -53,8 +53,8 @@ INSTANTIATE_TEST_SUITE_P(Laws, MirrorParticle,
                          testing::Values("linear", "plateau", "linear scale 0.5",
                                          "plateau scale 0.25", "linear limit_damping yes"));
 
-// A particle between both planes, carried from one to the other and back: each plane remembers
-// its own largest overlap. Forces by the linear law's three lines.
+// A particle between two planes, moved from one to the other and back: each plane remembers its own
+// largest overlap. Forces by the three branches of the linear law.
 TEST(BothPlanes, HaveAHistoryEach)
 {
   const double k1 = 1e4, k2 = 3e4, k_adh = 5e3;
@@ -89,8 +89,8 @@ TEST(BothPlanes, HaveAHistoryEach)
               1e-12);
 }
 
-// A contact that opens is forgotten: the next one starts on the loading line again. With the old
-// delta_max = 0.02 plateau would pull by k_adh delta_p = 50 at an overlap of 0.004.
+// A contact that opens loses its history: the next one starts on the loading line again. With the
+// old delta_max = 0.02 plateau would attract with k_adh delta_p = 50 at an overlap of 0.004.
 TEST(WallHistory, IsForgottenWhenTheContactOpens)
 {
   Simulation simulation;
@@ -110,8 +110,8 @@ TEST(WallHistory, IsForgottenWhenTheContactOpens)
   EXPECT_NEAR(simulation.fix("wall", 3), -1e4 * 0.004, 1e-6);    // virgin
 }
 
-// A particle that leaves the fix's group in contact, and comes back to it, starts anew: that
-// contact was not seen to open.
+// A particle that leaves the fix's group while in contact, and joins it again, has a new contact:
+// its old contact may have opened meanwhile.
 TEST(WallHistory, IsForgottenWhenTheParticleLeavesTheGroup)
 {
   Simulation simulation;
@@ -133,8 +133,8 @@ TEST(WallHistory, IsForgottenWhenTheParticleLeavesTheGroup)
   EXPECT_NEAR(simulation.fix("wall", 3), -1e4 * 0.004, 1e-6);    // virgin
 }
 
-// A set-up call neither winds the spring nor remembers an overlap: displaced out to half of it
-// before any step, the contact is still on its loading line.
+// A set-up call neither winds the spring nor remembers an overlap: a particle that is moved out to
+// half of its overlap before any step is still on the loading line.
 TEST(WallHistory, IsNotChangedBySetUpCalls)
 {
   Simulation simulation;
@@ -162,7 +162,7 @@ TEST(Cylinder, PushesInwardInsideAndOutwardOutside)
   EXPECT_LT((p[0].f - 1e4 * 0.01 * Vec3(-0.6, -0.8, 0)).norm(), 1e-9);
   EXPECT_LT((p[1].f - 1e4 * 0.02 * Vec3(-1, 0, 0)).norm(), 1e-9);
   EXPECT_EQ(simulation.fix("wall", 6), 2.0);
-  EXPECT_EQ(simulation.fix("wall", 4), 2.0);    // its position is its radius
+  EXPECT_EQ(simulation.fix("wall", 4), 2.0);    // the position of a cylinder is its radius
   EXPECT_LT((simulation.wall_force("wall") + p[0].f + p[1].f).norm(), 1e-12);
 }
 
@@ -237,7 +237,7 @@ TEST(ContactTable, TellsOfEachParticlesContact)
   EXPECT_NEAR(row[7], overlap, 1e-12);
   EXPECT_NEAR(row[8], 0.01, 1e-4);    // the largest overlap, at the start
   EXPECT_GE(row[8], row[7]);
-  EXPECT_EQ(row[9], 2.0);     // it unloads: pushed off from the start
+  EXPECT_EQ(row[9], 2.0);     // it unloads: repelled from the start
   EXPECT_EQ(row[10], 1.0);    // and slides
   for (const double value : simulation.fix_row("wall", 2)) EXPECT_EQ(value, 0.0);
 }

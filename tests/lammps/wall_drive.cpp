@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Where a wall is belongs to the wall: steps of any length, restarts and changes of what drives it
-// move it no further and lose no contact.
+// The position belongs to the wall: a change of the time step, a restart or a change of the drive
+// does not move the wall and loses no contact.
 
 #include "simulation.h"
 
@@ -51,7 +51,7 @@ TEST(WiggleTime, IsThatOfTheStepsMade)
     t += 500 * 2e-5;
     EXPECT_NEAR(simulation.fix("w", POSITION), wiggled(0.02, 0.05, t), 1e-12) << lines;
   }
-  // steps that grow in mid-run: LAMMPS's own sum of them is `time`
+  // steps that grow in mid-run; LAMMPS's own sum of them is `time`
   simulation("fix dt all dt/reset 10 1e-5 4e-5 1e-3 units box");
   simulation.set_velocity(1, Vec3(0, 0, 30));
   const double before = simulation.thermo("time");
@@ -82,7 +82,7 @@ TEST(WallRestartDrive, StaysInPhaseWithAnotherTimeStep)
 class WallRestartOfAnother :
     public testing::TestWithParam<std::pair<const char *, const char *>> {};
 
-// The wall, its contact and its force stay, whatever moved it before and moves it now.
+// Position, contact and force of the wall stay, for any drive before and after.
 TEST_P(WallRestartOfAnother, MotionLeavesItInItsPlace)
 {
   const ScratchFile file(".restart");
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, WallRestartOfAnother,
                                          std::pair("load 300 mass 1", "load 0 mass 1"),
                                          std::pair("load 300 mass 1", "velocity 0 0 0")));
 
-// A velocity that depends on the wall's own place and force is the same before and after.
+// A velocity that depends on the wall's own position and force is the same before and after.
 TEST(WallRestartDrive, EvaluatesVariablesWhereTheWallIs)
 {
   const ScratchFile file(".restart");
@@ -160,7 +160,7 @@ class WallRestartMisfit : public testing::Test {
     return refuses(restarted, "read_restart " + file.name() + "\n" + restarted_box + contact + wall,
                    "fix w wall/gran/eepa: " + regex);
   }
-  /// Replaces the only occurrence of some numbers by one other in their place `which`.
+  /// Replaces number `which` of the only occurrence of some numbers by another one.
   void damage(const std::vector<double> &numbers, std::size_t which, double value)
   {
     std::string bytes = file.text();
@@ -187,7 +187,7 @@ TEST_F(WallRestartMisfit, OfTheSurfaceIsRefused)
   EXPECT_TRUE(refused("wall zcylinder 3.5", "wall zcylinder R = 3.5 is not allowed: it must be 3"));
 }
 
-// Another law reads the same histories in another way, and a plane stays where the file has it.
+// Another law reads the same histories differently, and a plane stays at the position of the file.
 TEST_F(WallRestartMisfit, OfLawAndPlaceIsSaid)
 {
   write("wall zplane 0 NULL");
@@ -287,7 +287,7 @@ TEST(WallVariable, NeedsANameAndIsNoPosition)
 
 /* ---------------------------------------------------------------------- cylinder */
 
-// A particle that is shot through the lateral surface, from inside and from outside.
+// A particle that passes through the lateral surface at high speed, from inside and from outside.
 TEST(CylinderContact, StaysOnItsSide)
 {
   for (const double side : {1.0, -1.0}) {
@@ -308,7 +308,7 @@ TEST(CylinderContact, StaysOnItsSide)
 
 /* ---------------------------------------------------------------------- fix_modify */
 
-// The wall goes on from where it is, with its contact; a platen also at the speed that it has.
+// The wall continues from its position, with its contact; a platen also with its velocity.
 TEST(ChangeOfDrive, KeepsPlaceContactAndSpeed)
 {
   Simulation simulation;
@@ -338,7 +338,7 @@ TEST(ChangeOfDrive, KeepsPlaceContactAndSpeed)
   }
 }
 
-// Free platen, started at 0.5 with mass 2 and stopped: all books are even.
+// A free platen, started at 0.5 with mass 2 and stopped: work and dissipation balance.
 TEST(ChangeOfDrive, BooksThePlatensEnergy)
 {
   Simulation simulation;
@@ -373,8 +373,8 @@ TEST(ChangeOfDrive, OfAMistakeChangesNothing)
 
 /* ---------------------------------------------------------------------- load and shear */
 
-// A platen of weight F on a sphere that is held below: it falls as without sliding, and its surface
-// drags the sphere by mu f.
+// A platen of weight F on a sphere that is held below: it falls as without shear, and its surface
+// drags the sphere with mu f.
 TEST(LoadedSlide, DragsByFrictionAndMovesByItsLoad)
 {
   const std::string platen = "fix w all wall/gran/eepa linear coeff 1e4 1e4 0 0 0.3 wall zplane "
@@ -397,7 +397,7 @@ TEST(LoadedSlide, DragsByFrictionAndMovesByItsLoad)
   EXPECT_NEAR(drag, 0.3 * normal, 1e-12 * normal);
 }
 
-// No force call has found what the new platen feels.
+// No force call has computed the reaction on the new platen.
 TEST(ChangeOfDrive, ToALoadNeedsASetUp)
 {
   Simulation simulation;

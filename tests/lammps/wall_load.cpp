@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// A platen driven by a force: its motion against closed forms of velocity Verlet, rest under a
-// load, stops, energy, ranks, restart, and its time step.
+// A platen driven by a force: motion against closed forms of velocity Verlet, rest under a load,
+// stops, energy, ranks, restart, and time step.
 
 #include "packing.h"
 
@@ -18,7 +18,7 @@ namespace {
 constexpr int FORCE_Z = 3, POSITION = 4, VELOCITY = 5, CONTACTS = 6;
 constexpr int LOAD_FORCE = 13, LOAD_KINETIC_ENERGY = 14, LOAD_WORK = 15, LOAD_DISSIPATED = 16;
 
-/// A box with particles that meet walls only.
+/// A box with particles that touch only walls.
 void open(Simulation &simulation, const std::vector<Sphere> &spheres, double time_step)
 {
   simulation.open_box(5.0);
@@ -26,7 +26,7 @@ void open(Simulation &simulation, const std::vector<Sphere> &spheres, double tim
   simulation("pair_style zero 1.0\npair_coeff * *\ntimestep " + exact(time_step));
 }
 
-/// A platen far above a particle that nothing moves.
+/// A platen far above a particle that is not integrated.
 void open_free(Simulation &simulation, double time_step, const std::string &load,
                const std::string &plane = "zplane NULL 3")
 {
@@ -66,7 +66,7 @@ TEST_P(FreeFall, IsExact)
     EXPECT_EQ(simulation.fix("top", LOAD_DISSIPATED), 0.0);
   }
 }
-// pressure pushes towards the particles, a force along the axis
+// a pressure acts towards the particles, a force along the axis
 const Fall falls[] = {
     {"zplane NULL 3", "-6 mass 2", 3.0, -3.0},
     {"zplane NULL 3", "pressure 4 area 1.5 mass 2", 3.0, -3.0},
@@ -76,7 +76,7 @@ const Fall falls[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Loads, FreeFall, testing::ValuesIn(falls));
 
-// v = F/c (1 - exp(-c t/m)) at every step, whatever the damping; the way to second order.
+// v = F/c (1 - exp(-c t/m)) at every step, for any damping; the displacement to second order.
 TEST(DampedFall, ReachesItsTerminalVelocity)
 {
   const double force = -6.0, mass = 2.0;
@@ -93,7 +93,7 @@ TEST(DampedFall, ReachesItsTerminalVelocity)
       if (damping > 1.0) { EXPECT_NEAR(velocity, force / damping, 1e-3 * std::fabs(velocity)); }
       const double way = force / damping * (time - mass / damping * decay);
       error[fine] = damping < 1.0 ? 0.0 : simulation.fix("top", POSITION) - 3.0 - way;
-      // the outside's work is in the platen's motion and in the damping
+      // the external work is in the platen's motion and in the damping
       const double work = simulation.fix("top", LOAD_WORK);
       const double stored = simulation.fix("top", LOAD_KINETIC_ENERGY);
       EXPECT_NEAR(work, force * (simulation.fix("top", POSITION) - 3.0), 1e-10);
@@ -133,9 +133,9 @@ struct Spring {
 };
 class Oscillation : public testing::TestWithParam<Spring> {};
 
-// Velocity Verlet's own solution of m x'' = -k x from rest is A cos(n theta), cos theta = 1 - (w dt)^2/2.
-// The spring is a contact with a sphere that is held, or the load's variable, which asks this
-// fix where the platen is.
+// Velocity Verlet's own solution of m x'' = -k x from rest is A cos(n theta), cos theta = 1 - (w
+// dt)^2/2. The spring is a contact with a held sphere, or a load variable that reads the platen's
+// position from this fix.
 TEST_P(Oscillation, IsVerletsOwn)
 {
   const double stiffness = 1e4, mass = 2.0, dt = 1e-3, amplitude = 0.005;
@@ -172,8 +172,8 @@ INSTANTIATE_TEST_SUITE_P(Springs, Oscillation, testing::ValuesIn(springs), [](co
   return std::string(info.param.name);
 });
 
-// A platen that meets a free sphere: momentum is kept to rounding, and the two part as the linear
-// spring-dashpot of their reduced mass does.
+// A platen that meets a free sphere: momentum is kept to rounding, and the restitution is that of
+// the linear spring-dashpot with their reduced mass.
 TEST(Collision, IsThatOfABodyOfItsMass)
 {
   const double dt = 1e-5, mass = 3.0, k = 1e4, b = 20.0;
@@ -271,7 +271,7 @@ TEST(Limits, StopThePlatenAndLetItGoWhenTheForceTurns)
     simulation("variable push equal " + exact(force));
   };
   push(-6.0);
-  simulation.run(1024);    // it is there after sqrt(0.2/3) = 0.26
+  simulation.run(1024);    // the platen is at its stop after sqrt(0.2/3) = 0.26
   EXPECT_EQ(simulation.fix("top", POSITION), 2.9);
   EXPECT_EQ(simulation.fix("top", VELOCITY), 0.0);
   EXPECT_EQ(simulation.fix("top", LOAD_FORCE), -6.0);
@@ -304,8 +304,7 @@ TEST(Limits, MayBeOpenOnOneSide)
   }
 }
 
-// A platen that rests on its stop carries no more than it gets: the particles that come up lift it
-// only when they push harder than the load.
+// A platen at its stop is lifted by particles from below only when their force exceeds the load.
 TEST(Limits, HoldAgainstThePlatenOnly)
 {
   Simulation simulation;
@@ -316,13 +315,13 @@ TEST(Limits, HoldAgainstThePlatenOnly)
   simulation.run(490);    // overlap 0.0049, 49 of 50
   EXPECT_EQ(simulation.fix("top", POSITION), 0.5);
   EXPECT_NEAR(simulation.fix("top", FORCE_Z), 49.0, 1e-9);
-  simulation.run(1510);    // 0.02 - 0.005, and what the damping holds back: c v/k
+  simulation.run(1510);    // 0.02 - 0.005, and the lag by damping: c v/k
   EXPECT_NEAR(simulation.fix("top", POSITION), 0.515 - 50.0 * 0.1 / 1e4, 1e-6);
 }
 
 /* ---------------------------------------------------------------------- energy */
 
-// A packing on a floor between walls, pressed by a platen whose force goes up and down.
+// A packing on a floor between walls, pressed by a platen whose force rises and falls.
 void open_pressed(Simulation &simulation, const std::string &load, double dt,
                   const std::string &walls = "")
 {
@@ -345,10 +344,10 @@ void open_pressed(Simulation &simulation, const std::string &load, double dt,
   simulation("fix top" + wall + "zplane NULL " + half + " load " + load + walls);
 }
 
-// Verlet turns forces into kinetic energy by (f_n + f_n+1)/2 times the way, but for
-// dt^2/(8 m) f^2 of the end of each step, which does not add up: to rounding
+// Verlet turns (f_n + f_n+1)/2 times the displacement into kinetic energy, except for the change of
+// dt^2/(8 m) f^2 over a step, which does not accumulate. So to rounding
 //   kinetic + work on the particles - work of the load - dt^2/(8 m) (F + R)^2 = constant.
-// Damping and a stop are booked by what they take; then the sum holds to second order.
+// Losses by damping and at a stop are booked; with them the sum holds to second order.
 TEST(PlatenEnergy, IsKeptToRounding)
 {
   const double dt = 2e-4, mass = 20.0;
@@ -378,8 +377,8 @@ struct Pressing {
 };
 class PressedPacking : public testing::TestWithParam<Pressing> {};
 
-// Particles, contacts, gravity, platen, load, damping and stops together, and less is missed with
-// the time step.
+// Particles, contacts, gravity, platen, load, damping and stops together: the error falls with the
+// time step.
 TEST_P(PressedPacking, KeepsTheSumOfAllEnergies)
 {
   double missed[2], put_in = 0.0;
@@ -435,7 +434,7 @@ TEST(ParallelLoad, MovesTheSamePlatenOnAllRanks)
   for (int k = 1; k <= LOAD_DISSIPATED; k++) {
     const double value = alone.fix("top", k), mine = together.fix("top", k);
     EXPECT_NEAR(mine, value, 1e-8 * std::max(1.0, std::fabs(value))) << k;
-    // to the bit: a platen of its own on each rank would tear the packing apart
+    // to the bit: platens that differed between ranks would tear the packing apart
     double first = mine;
     MPI_Bcast(&first, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
     EXPECT_EQ(mine, first) << k;
@@ -447,7 +446,7 @@ constexpr const char *restarted_box =
     "comm_modify vel yes\nneighbor 0.1 bin\nneigh_modify every 1 delay 0 check yes\n"
     "thermo 1000000\n";
 
-// Stopped and continued is the same to the bit.
+// A run that is stopped and continued has the same bits.
 TEST(LoadRestart, GoesOnToTheBit)
 {
   const ScratchFile file(".restart");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Moving walls: where they are, how fast they go, and which way they drag particles.
+// Moving walls: position, velocity, and direction in which they drag particles.
 
 #include "simulation.h"
 
@@ -36,7 +36,7 @@ TEST(MovingWall, GoesAtItsVelocity)
   EXPECT_EQ(simulation.fix("wall", VELOCITY), -0.3);
   simulation.run(1000);
   EXPECT_NEAR(simulation.fix("wall", POSITION), -0.3 * 1000 * dt, 1e-14);
-  simulation.run(500);    // it goes on where it was
+  simulation.run(500);    // it continues from its position
   EXPECT_NEAR(simulation.fix("wall", POSITION), -0.3 * 1500 * dt, 1e-14);
 }
 
@@ -58,7 +58,8 @@ TEST(MovingWall, StartsAtItsOwnTimeNotAtStepZero)
 TEST(MovingWall, FollowsAVariable)
 {
   Simulation simulation;
-  // v = 0.2 + 0.001 step: the sum over steps 1 .. n of v dt, at most v dt off the integral
+  // v = 0.2 + 0.001 step: the sum over steps 1 .. n of v dt, which differs from the integral by at
+  // most v dt
   simulation("variable speed equal 0.2+0.001*step");
   open_floor(simulation, "velocity 0 0 v_speed");
   simulation.run(400);
@@ -91,7 +92,7 @@ TEST(MovingWall, WigglesAsACosine)
 
 TEST(MovingWall, MeetsThePositionOfTheEndOfTheStep)
 {
-  // a wall that comes up at 1 m/s under a particle that is held: f = k delta at every step
+  // a wall that moves up at 1 m/s under a held particle: f = k delta at every step
   Simulation simulation;
   simulation.open_box(5.0);
   simulation.create({{Vec3(0, 0, 0.5)}});
@@ -104,8 +105,8 @@ TEST(MovingWall, MeetsThePositionOfTheEndOfTheStep)
 
 class Dragging : public testing::TestWithParam<const char *> {};
 
-// The floor goes to +x under a sphere at rest: friction takes the sphere to +x at mu g and turns
-// it about -y (R x f at the bottom), at (5/2) mu g/R.
+// The floor moves to +x under a sphere at rest: friction accelerates the sphere to +x at mu g and
+// turns it about -y (R x f at the bottom), at (5/2) mu g/R.
 TEST_P(Dragging, FrictionFollowsTheSurface)
 {
   const double mu = 0.3, g = 10.0;
