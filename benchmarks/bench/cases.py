@@ -26,7 +26,7 @@ POWDER = Material(k1=5.0e3, mu=0.5, gamma_n=gamma_of_restitution(0.3, 5.0e3, _MA
 
 @dataclass(frozen=True)
 class Case:
-    """An in-file with its start file, and how long it is run."""
+    """An in-file with its start file and the length of the run."""
 
     name: str
     infile: Path

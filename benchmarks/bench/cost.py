@@ -19,7 +19,7 @@ STYLES = (HOOKE, DAMPED, GRANULAR, GRANULAR_DAMPED, "gran/eepa elastic", "gran/e
 
 def measure(program: Program, case: Case, styles: Sequence[str], rounds: int,
             work: Path) -> List[Dict]:
-    """One row a run: A B C, A B C, ...; a style that the case has not is left out."""
+    """One row a run: A B C, A B C, ...; a style that the case lacks is left out."""
     rows = []
     styles = [name for name in styles if name in case.styles]
     for k in range(rounds):

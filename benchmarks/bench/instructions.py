@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""Instructions of a pair style's compute(), counted by callgrind: no noise can move them."""
+"""Instructions of a pair style's compute(), counted by callgrind and so free of noise."""
 from __future__ import annotations
 
 import re
@@ -26,9 +26,9 @@ def available() -> bool:
 
 def measure(program: Program, case: Case, styles: Sequence[str], short: int, long: int,
             work: Path) -> List[Dict]:
-    """Two runs of each style that differ in their steps alone. What is counted beside the steps
-    (the set-ups' force calls, the last step, which also tallies the energy) is the same in both,
-    and the difference is free of it. As many runs at once as there are cores: nothing is timed."""
+    """Two runs of each style that differ only in the number of steps. The difference is free of what
+    else is counted and is the same in both: force calls of set-ups, and the last step, which also
+    tallies the energy. As many runs at once as there are cores, because nothing is timed."""
     lengths = (short, long)
     free = replace(program, bind=False)
     with ThreadPoolExecutor(len(usable_cores())) as pool:
@@ -44,7 +44,7 @@ def measure(program: Program, case: Case, styles: Sequence[str], short: int, lon
                 print(f"  {case.name}: {name}: {rows[-1]['per_contact']:.1f} instructions a "
                       "contact", flush=True)
         except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)    # those that wait are not begun
+            pool.shutdown(wait=False, cancel_futures=True)    # waiting runs are not started
             raise
     return rows
 

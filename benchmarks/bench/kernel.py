@@ -43,8 +43,8 @@ def driver_operations(rolling: str) -> Dict[str, float]:
 
 
 def contact_bytes(rolling: str, context: Mapping[str, str]) -> Tuple[int, int]:
-    """Bytes read and written for a contact in LAMMPS's arrays, those of the partner and of the
-    pair; those of the particle itself are shared by all its contacts and left out.
+    """Bytes of LAMMPS's arrays that are read and written for a contact: those of the partner and of
+    the pair. Bytes of the particle itself are shared by all its contacts and left out.
 
     :param context: of bench_kernel, which knows how long the history is
     """

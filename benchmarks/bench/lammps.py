@@ -17,7 +17,7 @@ from collapse.runs import RunFailed
 
 LOG = "log.lammps"
 SCREEN = "screen.txt"
-# LAMMPS's own output is buffered, and what comes from elsewhere can stand in its midst
+# LAMMPS's own output is buffered, so other output can appear in its midst
 _PEAK = re.compile(r"VmHWM:\s*(\d+) kB")
 
 
@@ -56,7 +56,7 @@ class Parallel:
 class Finished:
     log: Path
     seconds: float
-    peak_kb: int    #: largest resident set of the first rank; 0 where nothing told it
+    peak_kb: int    #: largest resident set of the first rank; 0 where it is unknown
 
 
 def command(program: Program, infile: Path, folder: Path, variables: Mapping[str, str],
@@ -88,7 +88,7 @@ def environment(program: Program, parallel: Parallel = Parallel()) -> Dict[str, 
 
 
 def bind(process: subprocess.Popen, cores: int = 1) -> None:
-    """Keeps a process to as many cores: the last ones, since the first serves the machine."""
+    """Binds a process to as many cores: the last ones, since the system uses the first."""
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(process.pid, usable_cores()[-cores:])
 
@@ -120,7 +120,7 @@ def run_lammps(program: Program, infile: Path, folder: Path, variables: Mapping[
         said = "\n".join(f"    {line}" for line in tail(folder / SCREEN))
         raise RunFailed(f"status {process.returncode} of\n    {' '.join(words)}\n"
                         f"which ends\n{said}")
-    # not the system's account of the child, which begins with this program's own size
+    # the system's account of the child is useless: it begins with this program's own size
     peak = _PEAK.search((folder / SCREEN).read_text(encoding="utf-8", errors="replace"))
     return Finished(folder / LOG, seconds, int(peak.group(1)) if peak else 0)
 

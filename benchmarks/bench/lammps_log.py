@@ -42,12 +42,12 @@ class TimedRun:
 
     @property
     def contacts(self) -> float:
-        """Between its start and its end."""
+        """Number of contacts, mean of start and end of the run."""
         return 0.5 * (self.figures["contacts_before"] + self.figures["contacts_after"])
 
 
 def read_run(lines: Iterable[str]) -> TimedRun:
-    """The run between the lines `Stage timed` and `Stage done`, and every figure of the log.
+    """Reads the run between the lines `Stage timed` and `Stage done`, and every figure of the log.
 
     :raise BadLog: if it is not there or not finished
     """

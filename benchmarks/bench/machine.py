@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""What a figure was measured on and with."""
+"""Description of the machine and programs with which a figure was measured."""
 from __future__ import annotations
 
 import json
@@ -21,7 +21,7 @@ def describe(build: Path, source: Path, mpirun: str,
     """
     return {
         "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
-        # where the results went is nobody's business that reads them
+        # the folder of the results does not belong into them
         "arguments": [Path(word).name if Path(word).is_absolute() else word for word in words],
         "processor": _from_file(Path("/proc/cpuinfo"), "model name") or platform.processor(),
         "cores": len(usable_cores()),
@@ -70,7 +70,7 @@ def _word(path: Path) -> str:
 
 
 def _first_line(*words: str) -> str:
-    """Of what a program says; nothing where there is no such program."""
+    """A part of a program's output; nothing where there is no such program."""
     try:
         said = subprocess.run(words, text=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     except OSError:

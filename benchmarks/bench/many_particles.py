@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""What is lost when particles no longer fit the cache: the same packing, and copies of it side by side."""
+"""Loss of speed when particles no longer fit the cache: the same packing, and copies of it side by side."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -33,7 +33,7 @@ def measure(program: Program, cases: Sequence[Case], rounds: int, work: Path) ->
 
 
 def loss(rows: Sequence[Dict], style: str, small: str, large: str) -> Median:
-    """Of particle steps a second, from one size to the other, round by round."""
+    """Ratio of particle steps a second between the two sizes, round by round."""
     one, other = (column(rows, f"{style} {case}", "name", "ns") for case in (small, large))
     return median([1.0 - one[k] / other[k] for k in sorted(one) if k in other])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""What several types of particles cost: the same packing with 1, 2, 10 types in turn."""
+"""Cost of several types of particles: the same packing with 1, 2, 10 types in turn."""
 from __future__ import annotations
 
 from dataclasses import replace

@@ -16,7 +16,7 @@ STYLES = (HOOKE, "gran/eepa full", "gran/eepa sds")
 
 def measure(program: Program, cases: Sequence[Case], styles: Sequence[str],
             work: Path) -> List[Dict]:
-    """One run of each; the first case is the small one, whose memory is everybody's."""
+    """One run of each case; the first is the small one, from which per_particle() counts."""
     rows = []
     for case in cases:
         for name in styles:
@@ -27,7 +27,7 @@ def measure(program: Program, cases: Sequence[Case], styles: Sequence[str],
 
 
 def per_particle(small: Dict, large: Dict) -> float:
-    """Bytes of resident memory that a further particle takes."""
+    """Bytes of resident memory for each additional particle."""
     return 1024.0 * (large["peak_kb"] - small["peak_kb"]) / (large["atoms"] - small["atoms"])
 
 

@@ -25,7 +25,7 @@ def save(figure, path: Path) -> None:
 
 
 def _with_spread(some: Sequence[Median]) -> Tuple[np.ndarray, np.ndarray]:
-    """Medians, and how far the quartiles are from them, as Matplotlib wants it."""
+    """Medians and distances of the quartiles from them, in Matplotlib's form."""
     return (np.array([m.value for m in some]),
             np.array([[m.value - m.low for m in some], [m.high - m.value for m in some]]))
 
@@ -97,7 +97,7 @@ def scaling(series: Mapping[str, Mapping[str, Sequence[Tuple[int, Median]]]], pa
 
 def powers(x: Sequence[float], series: Mapping[str, Sequence[float]], fits: Mapping[str, Power],
            promised: float, path: Path) -> None:
-    """Wall time against diameter on logarithmic axes, fitted powers and the promised one."""
+    """Wall time against diameter on logarithmic axes, with the fitted powers and d^-4."""
     figure, axis = plt.subplots(figsize=(5.5, 4.6), constrained_layout=True)
     x = np.asarray(x, dtype=float)
     for k, (name, y) in enumerate(series.items()):

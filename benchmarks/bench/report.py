@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""One page of all that has been measured, each part with what it was measured on."""
+"""One page of all measurements, each part with the machine that it was measured on."""
 from __future__ import annotations
 
 import json
@@ -10,8 +10,8 @@ MACHINE = "machine.json"
 
 
 def write_part(results: Path, name: str, text: str, description: Mapping[str, object]) -> None:
-    """A part's table; machine.json keeps for each part what it was measured on and when, since
-    parts can be run again one by one."""
+    """A part's table. machine.json keeps machine and date for each part, since parts can be run again
+    one by one."""
     (results / f"{name}.txt").write_text(text, encoding="utf-8")
     machines = read_machines(results)
     machines[name] = dict(description)
@@ -39,7 +39,7 @@ def write_report(results: Path, titles: Mapping[str, str]) -> None:
             continue
         lines += [f"## {name}: {title}", ""]
         machine = machines[name]
-        # what is as in the part before is not said again
+        # do not repeat what is the same as in the part before
         news = {key: value for key, value in machine.items() if shown.get(key) != value}
         shown = machine
         lines += [f"- {key}: {_plain(value)}" for key, value in news.items() if value]

@@ -64,8 +64,8 @@ def measure(program: Program, some: Sequence[Job], rounds: int, work: Path) -> L
 
 
 def speed_up(rows: Sequence[Dict], job: str, value: str) -> Median:
-    """Of steps a second against one serial core, round by round; of a weak one it is what is kept
-    of a core's speed."""
+    """Steps a second over those of one serial core, round by round; in weak scaling, the part of a
+    core's speed that is kept."""
     own = next(row for row in rows if row["job"] == job)
     ours = column(rows, job, "job", value)
     theirs = column(rows, own["reference"], "job", value)

@@ -30,14 +30,13 @@ def median(values: Sequence[float]) -> Median:
 
 
 def column(rows: Sequence[Mapping], name: Hashable, by: str, value: str) -> Dict[int, float]:
-    """Of the rows where `by` is `name`: `value` for each round."""
+    """`value` for each round, from the rows where `by` is `name`."""
     return {row["round"]: float(row[value]) for row in rows if row[by] == name}
 
 
 def paired_ratios(rows: Sequence[Mapping], name: Hashable, reference: Hashable, by: str,
                   value: str) -> List[float]:
-    """One ratio a round, of two runs that came one after the other: what slows the machine down
-    for a while slows both.
+    """One ratio a round, of two consecutive runs: a slow phase of the machine slows both.
 
     :param rows: each has a `round`
     """

@@ -15,7 +15,7 @@ GRANULAR_DAMPED = "granular damped"
 
 @dataclass(frozen=True)
 class Material:
-    """What a case's spheres are made of, in its units."""
+    """Material of a case's spheres, in its units."""
 
     k1: float
     mu: float
@@ -26,12 +26,12 @@ class Material:
     k_adh: float
     f0: float
     mu_r: float = 0.001
-    #: with which gran/hooke/history has as many contacts as hysteresis leaves; 0: as it is
+    #: restitution with which gran/hooke/history has as many contacts as with hysteresis; 0: none
     damped_restitution: float = 0.0
 
     @property
     def restitution(self) -> float:
-        """Of the linear spring-dashpot with gamma_n between two of the spheres."""
+        """Restitution of the linear spring-dashpot with gamma_n between two of the spheres."""
         half = 0.5 * self.gamma_n
         return math.exp(-math.pi * half / math.sqrt(self.k1 / (0.5 * self.mass) - half * half))
 
@@ -78,11 +78,11 @@ def gamma_of_restitution(restitution: float, k1: float, mass: float) -> float:
 
 
 def make_styles(m: Material) -> Dict[str, Style]:
-    """All styles by name. A flow that hysteresis calms is denser and has more contacts, which is
-    no cost of the pair style; `damped` is one of LAMMPS's styles calmed by its dashpot instead,
-    where the material says how much. Of gran/eepa: elastic is gran/hooke/history's physics; full adds
-    hysteresis, adhesion, pull-off force and constant rolling friction; plateau is the same with
-    the other law; sds is full with a rolling spring instead."""
+    """All styles by name. A flow that hysteresis slows down is denser and has more contacts, which is
+    no cost of the pair style; `damped` is one of LAMMPS's styles slowed down by its dashpot instead,
+    where the material gives the damping. Variants of gran/eepa: elastic has the physics of
+    gran/hooke/history; full adds hysteresis, adhesion, pull-off force and constant rolling friction;
+    plateau is full with the other law; sds is full with a rolling spring instead."""
     damped = 1 if m.tangential_damping else 0
     full = (f"{m.k1:.9g} {m.k2:.9g} {m.k_adh:.9g} {m.f0:.9g} {m.mu:.9g} "
             f"restitution {m.restitution:.6f}")

@@ -58,7 +58,7 @@ FORMULAS: Dict[str, Law] = {"linear": linear, "plateau": plateau}
 
 
 def follow(law: Law, overlaps: Sequence[float]) -> Tuple[np.ndarray, np.ndarray]:
-    """Force and branch along a path of overlaps; no contact, no force, and its history is gone."""
+    """Force and branch along a path of overlaps; where contact is lost, so is its history."""
     plastic = 0.0
     forces: List[float] = []
     branches: List[int] = []
@@ -114,7 +114,7 @@ def mark(axis, text: str, at: Tuple[float, float], to: Tuple[float, float], colo
 
 
 def label_branches(axis, law: str) -> None:
-    """Names what is to be seen, in µm and mN."""
+    """Labels the branches and forces, in µm and mN."""
     mark(axis, "loading, k1", (12.0, 40.0), (6.0, 82.0), COLOURS[LOADING])
     mark(axis, "unloading and\nreloading, k2", (16.5, 45.0),
          (27.0, 15.0), COLOURS[UNLOADING])
@@ -172,8 +172,8 @@ def main(words: Optional[Sequence[str]] = None) -> int:
 
 
 def distance(law: str, samples: np.ndarray) -> float:
-    """The largest difference from the formulas, led through the overlaps that LAMMPS had, in
-    parts of the largest force."""
+    """Largest difference from the formulas, evaluated at LAMMPS's overlaps, over the largest
+    force."""
     forces, _ = follow(FORMULAS[law], samples["overlap"])
     return float(np.max(np.abs(forces - samples["force"])) / np.max(np.abs(samples["force"])))
 

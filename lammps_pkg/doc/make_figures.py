@@ -27,7 +27,7 @@ LOADING, UNLOADING, ADHESIVE = 1, 2, 3
 COLOUR = {LOADING: "#0072B2", UNLOADING: "#D55E00", ADHESIVE: "#009E73"}
 NAME = {LOADING: "loading", UNLOADING: "unloading, reloading", ADHESIVE: "adhesive"}
 
-# overlaps between which a contact goes to and fro, in units of the first peak
+# turning points of the overlap, in units of the first peak
 PATH = (1e-9, 1.0, 0.75, 1.3, 0.25, 1.45, 1e-9)
 
 
@@ -53,7 +53,7 @@ def draw(axes, table, title, column=1):
     overlap, value, branch = table[:, 0], table[:, column], table[:, 2].astype(int)
     step = np.abs(np.diff(value)) > 0.02 * np.ptp(value)
     for b in (LOADING, UNLOADING, ADHESIVE):
-        # a point of another branch ends a stretch, unless the force runs on through it
+        # a point of another branch ends a section, unless the force continues through it
         x, y = overlap.copy(), value.copy()
         keep = branch == b
         joined = keep.copy()
@@ -110,7 +110,7 @@ def linear(program):
 
 
 def check_plateau_energy(program):
-    """The number that the documentation gives for f0's surplus of work."""
+    """The excess work of f0 that the documentation states."""
     k2, k_adh, f0, peak = 2.0, 1.0, -0.15, 1.0
     table = curve(program, "plateau", 1, k2, k_adh, f0, path=(1e-9, peak, 1e-9))
     without = curve(program, "plateau", 1, k2, k_adh, 0.0, path=(1e-9, peak, 1e-9))
@@ -118,7 +118,7 @@ def check_plateau_energy(program):
     integrate = getattr(np, "trapezoid", None) or np.trapz
     work = integrate(table[:, 1], table[:, 0]) - integrate(without[:, 1], without[:, 0])
     begin = peak / k2 * (1.0 - k_adh / k2)
-    # the force on the way in does work -, on the way out +: what f0 gives is minus the integral
+    # work is negative during loading and positive during unloading: that of f0 is minus the integral
     print(f"surplus of work of f0 per closing and opening: {-work:.4g}, |f0| delta_s: {-f0 * begin:.4g}")
 
 

@@ -89,14 +89,14 @@ def overlaps(rng, rows, size):
                                         rng.uniform(-0.004, 0.006)], p=[0.5, 0.3, 0.2])
             rate = 10.0 ** rng.uniform(-3.0, -1.7)
         delta += np.sign(target - delta) * rate * size * rng.uniform(0.2, 1.0)
-        # Now and then exactly the same overlap twice: delta = delta_max is `loading`.
+        # Sometimes exactly the same overlap twice: delta = delta_max is `loading`.
         yield short(delta)
         if rng.uniform() < 0.05:
             yield short(delta)
 
 
 def header(p, **geometry):
-    # What stands at its default need not be said, so that the older tables stay as they are.
+    # Parameters at their defaults are left out, so that the older tables do not change.
     pairs = {name: v for name, v in {**p, **geometry}.items()
              if name not in ("depth", "bound") or v != law.DEFAULTS[name]}
     pairs["kt"] = p["kt"] if p["kt"] is not None else "default"
@@ -145,7 +145,7 @@ def write_full(path, p, rng, wall):
                   "fx,fy,fz,tix,tiy,tiz,tjx,tjy,tjz,delta_max,xix,xiy,xiz,xrx,xry,xrz,"
                   "energy_n,energy_t,energy_r\n")
         for delta in overlaps(rng, FULL_ROWS, size):
-            # The normal turns a little each step, by a quarter turn or more now and then.
+            # The normal turns a little each step, sometimes by a quarter turn or more.
             turn = 1.5 if rng.uniform() < 0.05 else 0.1
             direction = direction / law.norm(direction) + turn * rng.normal(size=3)
             n = np.array([short(x) for x in direction])

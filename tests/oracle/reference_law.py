@@ -188,7 +188,7 @@ def friction_bound(q, f_hys, delta, delta_max):
         return q["mu"] * max(f_hys, 0.0)
     if q["law"] == "plateau":
         delta_p = plastic_overlap(q, delta_max)
-        # -f0 stands outside mu: the article's equation, to the letter.
+        # -f0 is outside mu, exactly as printed in the article.
         bound = q["mu"] * (f_hys + q["k_adh"] * delta_p) - q["f0"]
     else:
         bound = q["mu"] * (f_hys + q["k_adh"] * delta ** q["n"] - q["f0"])
@@ -257,13 +257,13 @@ def wound(xi, v, u, w_sum, dt):
     return twisted(rotated(xi, u), u, w_sum, dt) + way + half * np.cross(u, way)
 
 
-# Where the dashpot alone exceeds the bound the contract's letter ("reset so that the next step
-# starts on the bound") winds a spring in the direction of sliding, against the dashpot; it later
+# Where the dashpot alone exceeds the bound, the contract read literally ("reset so that the next step
+# starts on the bound") winds a spring in the direction of sliding, against the dashpot, which later
 # drives the contact. The first replay of these tables found that the kernel leaves no spring there
-# instead, and says why (tangential_law.h): the dissipation of sliding is then never negative, as the
-# energy ledger asks, and the next force has the bound's length all the same. Adopted here after
-# that comparison; this and the direction of the rolling spring are the only changes made to this
-# file with knowledge of the kernel.
+# (reason in tangential_law.h): the dissipation of sliding is then never negative, as the energy ledger
+# requires, and the next force has the length of the bound all the same. That was adopted here after the
+# comparison; this and the direction of the rolling spring are the only changes made to this file with
+# knowledge of the kernel.
 SPRING_BEHIND_DASHPOT = False
 
 

@@ -75,7 +75,7 @@ class Statistics(unittest.TestCase):
             for k, value in enumerate(values)]
 
     def test_ratios_are_paired(self):
-        # a machine ten times as slow in the second round does not show
+        # a machine that is ten times slower in the second round does not change the result
         ratios = statistics.paired_ratios(self.rows, "a", "b", "style", "pair_s")
         self.assertEqual(ratios, [2.0, 2.5, 1.5])
         middle = statistics.median(ratios)

@@ -84,7 +84,7 @@ class Fit(unittest.TestCase):
         rough = replace(wanted, strain_error=0.03 * wanted.strain,
                         strength_error=0.04 * wanted.strength)
         found = calibration.fit(START, ["k1", "kadh"], Model(rough, (0.0, 0.0)))
-        # porosity says the same as strain, so that it does not make it surer
+        # porosity depends on strain, so that it does not reduce the error
         self.assertAlmostEqual(found.errors["k1"], 0.03, delta=0.003)
         self.assertAlmostEqual(found.errors["kadh"], 0.05, delta=0.004)
 

@@ -81,7 +81,7 @@ class Curves(unittest.TestCase):
         self.assertAlmostEqual(one.unloading.strain["platen"][0], 0.03)
 
     def test_known_deviation(self):
-        # Straight lines that part by 10% of the slope: rms of 0.1 E e over e from 0 to 0.03 is
+        # Straight lines that differ by 10% of the slope: rms of 0.1 E e over e from 0 to 0.03 is
         # 0.1 E 0.03/sqrt(3), the peak is 5e3 + 0.03 E.
         modulus = 3.0e6
         result = curves.loading_deviation([curve(1.1 * modulus)], [curve(modulus)], "bulk")

@@ -219,7 +219,7 @@ class Measured(unittest.TestCase):
         self.assertEqual(cost, Cost(7, 31.0, 1500, 24.0, 1200))
 
     def test_strength_of_scattered_samples_is_not_above_them(self):
-        # What grains scatter by lasts for several samples, and after a peak stress falls slowly.
+        # The scatter of grains is correlated over several samples, and after a peak stress falls slowly.
         random = np.random.default_rng(7)
         strain = np.linspace(2e-4, 0.03, 150)
         curve = 1.0e4 * 2.718281828 * strain / 0.01 * np.exp(-strain / 0.01)
@@ -228,7 +228,7 @@ class Measured(unittest.TestCase):
                                                 "valid")) for _ in range(300)]
         found = np.mean([measured.strength_of(strain, some)[0] for some in scattered])
         self.assertAlmostEqual(found / 1.0e4, 1.0, delta=0.008)
-        # what the largest mean of five samples would make of it
+        # the result by the largest mean of five samples
         self.assertGreater(np.mean([measured.running_mean(some, 5).max() for some in scattered]),
                            1.03e4)
 

@@ -280,7 +280,7 @@ class Rows(unittest.TestCase):
         one, = analysis.similar_specimens({g.key: g for g in [fine, *others]}, self.full)
         self.assertEqual((one.diameter_mm, one.fine_mm), (3.0, 1.0))
         self.assertAlmostEqual(one.strength_deviation[self.last].value, 5.0)
-        # packings of a seed are the same: what they scatter by is in neither error
+        # packings of a seed are the same, so that their scatter is in neither error
         self.assertAlmostEqual(one.strength_deviation[self.last].error, 0.0)
         self.assertAlmostEqual(one.loading_deviation.error, 0.0)
         self.assertEqual(one.seeds, 3)

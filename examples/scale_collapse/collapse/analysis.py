@@ -18,8 +18,8 @@ from .statistics import (Value, paired_percent, ratio_percent, scatter_percent,
 
 @dataclass(frozen=True)
 class Row:
-    """One group beside what it is compared with (groups.references). Deviations in % with their
-    standard error; what has no meaning, or nothing to compare it with, is not a number."""
+    """One group compared with its reference (groups.references). Deviations in % with their standard
+    error; not a number where they have no meaning or no reference."""
 
     material: str
     mode: str
@@ -56,7 +56,7 @@ class Row:
     strength: Dict[float, Value]
     strength_deviation: Dict[float, Value]
     crush_deviation: Dict[float, Value]
-    #: of the confined test alone, and of the whole run with the making of the specimen
+    #: first those of the confined test alone, then those of the whole run with the making of the specimen
     steps: float
     seconds: float
     speed_up: Value
@@ -150,7 +150,7 @@ def _moduli(group: Group, name: str) -> Value:
 
 
 def paired_loading(group: Group, reference: Group) -> cv.Deviation:
-    """Of the loading curve, seed by seed: both tests are of the same packings."""
+    """Deviation of the loading curve, seed by seed: both tests have the same packings."""
     pairs = [(group.confined[seed].curve, reference.confined[seed].curve)
              for seed in group.confined if seed in reference.confined]
     grid = np.linspace(0.0, cv.common_strain(list(zip(*pairs)), "bulk"), cv.GRID_POINTS)
@@ -166,9 +166,9 @@ def paired_strength(group: Group, reference: Group, level: float) -> Value:
 
 @dataclass(frozen=True)
 class Similar:
-    """Coarse particles beside as many finer ones in a specimen as many diameters wide and high:
-    what is left between them is the law's and inertia's, not the specimen's. From one seed their
-    packings are the same but for their size, so that they are compared seed by seed."""
+    """Coarse particles compared with as many finer ones, in a specimen of equal width and height in
+    diameters: differences are due to the law and inertia, not to the specimen. Packings of one seed
+    differ in size only, so they are compared seed by seed."""
 
     diameter_mm: float
     width_mm: float

@@ -108,8 +108,8 @@ class Residual:
 
 
 def residual(target: Target, curve: cv.Curve, strength: Optional[float]) -> Residual:
-    """At equal stress: the run must not be asked beyond what it reached. The strains' distance is
-    turned into stress by the target's mean stiffness."""
+    """Residuals are taken at equal stress, within the range that the run reached. Differences of
+    strain are converted to stress by the target's mean stiffness."""
     top = min(target.stress[-1], float(curve.loading.stress.max()))
     grid = np.linspace(target.preload, top, POINTS)
     wanted = np.interp(grid, target.stress, target.strain)
@@ -129,7 +129,7 @@ def residual(target: Target, curve: cv.Curve, strength: Optional[float]) -> Resi
         raise ValueError("the target's porosity does not change with stress")
     parts.append((found - wanted - offset) / span / math.sqrt(POINTS))
     if target.strain_error is not None:
-        # porosity says the same as strain, and has the same error: its change is (1 - n) strain's
+        # porosity depends on strain and has the same error: its change is (1 - n) times that of strain
         error = np.interp(grid, target.stress, target.strain_error) * (1.0 - wanted)
         of_strain.append((error - error[0]) / span / math.sqrt(POINTS))
     shifts = [np.concatenate(of_strain)] if of_strain else []
@@ -200,7 +200,7 @@ def fit(start: Material, free: Sequence[str], simulate: Simulate, most: int = 12
         return np.mean([r.values for r in found], axis=0)
 
     def residuals(x: np.ndarray) -> np.ndarray:
-        # The differences will be asked for next: one batch fills all jobs.
+        # The differences are needed next, and one batch fills all jobs.
         evaluate([x, *steps_from(x)])
         return mean_of(known[tuple(x)])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""What is to be run: one case is one specimen, with every variable that in.oedometer is given."""
+"""The runs of the study: one case is one specimen, with every variable of in.oedometer."""
 from __future__ import annotations
 
 import hashlib
@@ -18,7 +18,7 @@ DENSITY = 2000.0
 K1, K2 = 5.0e3, 1.0e4
 STRAIN_RATE = 0.5
 PACKING_RATE = 1.0
-# What a run of the default parameters takes, only used to foresee how long it will be.
+# Duration of a run with default parameters, used only to estimate the time left.
 RELAXING_STEPS, PACKING_STRAIN, LOADING_STRAIN, UNLOADING_STRAIN = 2000, 0.052, 0.026, 0.015
 
 
@@ -111,8 +111,8 @@ def require_positive(name: str, value: float) -> None:
 
 
 def seeds_per_diameter(diameters: Sequence[float], given: Sequence[int]) -> List[int]:
-    """How many seeds each diameter gets: as given (one for all, or one each), else more of the
-    coarse ones, whose packings scatter more and cost less."""
+    """Number of seeds of each diameter: as given (one for all, or one each), else more for coarse
+    diameters, whose packings scatter more and cost less."""
     for diameter in diameters:
         require_positive("diameter", diameter)
     if not given:

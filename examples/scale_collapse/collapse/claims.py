@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""What the study set out to show, each with the figure that was measured. The limits are those
-that were set before it was run; a figure beyond one is reported as such."""
+"""Claims of the study, each with the figure that was measured. The limits were set before the
+study was run; a figure beyond its limit is reported as such."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -31,8 +31,8 @@ class Claim:
 
 
 def claims(rows: Sequence[Row], finest: float) -> List[Claim]:
-    """Of the base material, inertial numbers of all. What was not run, or has no finest particles
-    to be compared with, makes no claim.
+    """Claims on the base material, and on the inertial numbers of all. Runs that are missing, or have
+    no finest particles as a reference, make no claim.
 
     :param finest: diameter of the plan's finest particles, mm
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""How the programs of this folder end."""
+"""Exit status of the programs of this folder."""
 from __future__ import annotations
 
 import sys
@@ -10,7 +10,7 @@ from .runs import RunFailed
 
 
 def exit_status(program: str, work: Callable[[], object], *errors: Type[Exception]) -> int:
-    """Does the work. What a user can mend, `errors` too, ends in one line and not in a traceback.
+    """Does the work. An error that a user can correct, `errors` too, ends in one line without traceback.
 
     :return: 0, 1 after an error, 130 when stopped
     """

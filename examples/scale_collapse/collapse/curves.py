@@ -20,7 +20,7 @@ GRID_POINTS = 200
 
 
 class BadCurve(ValueError):
-    """A curve file does not hold what it should."""
+    """A curve file lacks required contents."""
 
 
 @dataclass(frozen=True)
@@ -97,8 +97,8 @@ def curve_from_samples(samples: np.ndarray, preload: float, name: str = "curve")
                       if "bulk_coordination" in samples.dtype.names else None)
 
     loading = branch(load[load > last], [last])
-    # Unloading begins with the last sample before it, of loading or of the hold after that: its own
-    # first sample comes a little after the reversal.
+    # The branch of unloading starts with the last sample before it, of loading or of the hold after
+    # loading, because its own first sample comes a little after the reversal.
     unloading = branch(np.concatenate([unload[:1] - 1, unload]), [])
     height = samples["height"][load]
     return Curve(loading, unloading, at_preload(samples["porosity"]),
@@ -129,8 +129,8 @@ def mean_of(grid: np.ndarray, values: Sequence[np.ndarray]) -> Mean:
 
 
 def sorted_by(key: np.ndarray, values: np.ndarray) -> tuple:
-    """Both in rising order of key, as interpolation needs it. A sample that goes back against
-    the branch (a grain that slips) only changes places with its neighbour."""
+    """Sorts both by rising key, as interpolation needs. A sample against the direction of the branch
+    (a grain that slips) only changes places with its neighbour."""
     order = np.argsort(key, kind="stable")
     return key[order], values[order]
 

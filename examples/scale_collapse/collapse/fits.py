@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""What is fitted to the groups: exponents that are left free, flow function, strength over the
-contacts' attraction, wall time."""
+"""Fits to the groups: exponents of the coefficients, flow function, strength over the contacts'
+attraction, wall time."""
 from __future__ import annotations
 
 from dataclasses import dataclass

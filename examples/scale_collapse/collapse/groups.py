@@ -85,8 +85,8 @@ def group_results(plan: Plan, out: Path, finished: Callable[[Run], bool]) -> Dic
 
 
 def references(groups: Dict[Key, Group], plan: Plan) -> Dict[Key, Optional[Group]]:
-    """What each group is compared with: the finest scaled one that is planned of its material; at
-    another strain rate the same packings at the usual one. Nothing where that has not been run."""
+    """The reference of each group: the finest scaled group planned for its material; at another strain
+    rate the same packings at the usual rate. Nothing where that has not been run."""
     usual = {(g.material, g.mode, g.diameter): g for g in groups.values() if not g.special}
     finest: Dict[Material, float] = {}
     for run in plan.runs:
@@ -108,7 +108,7 @@ def equally_wide(one: Group, other: Group) -> bool:
 
 
 def comparison_stress(plan: Plan) -> float:
-    """Where groups are compared at equal stress, Pa: below the last level, for the platen lags and
+    """The stress at which groups are compared, Pa: below the last level, because the platen lags and
     samples come at intervals."""
     return 0.9 * plan.levels[-1]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""What a LAMMPS log says about a run: how far it is, and how long each stage took."""
+"""Progress and times of a run from its LAMMPS log."""
 from __future__ import annotations
 
 import re

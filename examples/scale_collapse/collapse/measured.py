@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""What one run of in.confined or in.unconfined measured. SI units."""
+"""Results of one run of in.confined or in.unconfined. SI units."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -30,9 +30,9 @@ MAKING = ("start", "place", "relax", "pack")
 
 @dataclass(frozen=True)
 class Moduli:
-    """On unloading, per strain of the bulk, which is all axial and counts from the beginning of
-    unloading: that of axial stress (constrained modulus), that of mean stress (bulk modulus), Pa;
-    lateral over axial stress before it."""
+    """Moduli on unloading, Pa: change of axial stress (constrained modulus) and of mean stress (bulk
+    modulus) per strain of the bulk, which is axial only and counts from the beginning of unloading. Ratio
+    of lateral to axial stress before unloading."""
 
     constrained: float
     bulk: float
@@ -118,9 +118,9 @@ def moduli_of(samples: np.ndarray, name: str = "curve") -> Moduli:
 
 
 def strength_of(strain: np.ndarray, stress: np.ndarray) -> Tuple[float, float]:
-    """Largest stress of crushing and its strain: the top of the cubic of least squares through the
-    samples around the peak. The largest sample, or mean of a few, would be above it by what they
-    scatter, which is more the coarser the particles are."""
+    """Largest stress of crushing and its strain: the maximum of the cubic of least squares through the
+    samples around the peak. The largest sample, or mean of a few, would be too high by their scatter,
+    which grows with the diameter."""
     width = min(SMOOTHED[1], max(SMOOTHED[0], len(stress) // 15))
     smooth = running_mean(stress, width)
     rough = int(np.argmax(smooth))
@@ -143,7 +143,7 @@ def inertial_number(diameter: float, strain_rate: np.ndarray, stress: np.ndarray
 
 
 def loading_inertial_number(samples: np.ndarray, diameter: float) -> float:
-    """The largest on loading; the strain rate is that of the bulk over twenty samples, 0.2% of
+    """Largest inertial number on loading, with the strain rate of the bulk over twenty samples, 0.2% of
     strain."""
     load = samples[samples["stage"] == "load"]
     width = min(20, len(load) - 1)

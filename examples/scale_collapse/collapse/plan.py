@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""Which specimens the study of strength is made of, and how long they will take."""
+"""The specimens of the study of strength and an estimate of their time."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -50,7 +50,7 @@ VARIED = tuple(vary(material, factor) for material, vary in (
 
 @dataclass(frozen=True)
 class Plan:
-    """What is run, in order of appearance; a run that two purposes share is there once."""
+    """The runs in order of appearance; a run that two purposes share appears once."""
 
     runs: Tuple[Run, ...]
     diameters: Tuple[float, ...]
@@ -174,8 +174,8 @@ def _add_fits(some: _Collector, fitted: Sequence[float], pull_off_reference: flo
 
 def _add_sizes(some: _Collector, finest: float, pull_off_reference: float,
                coarse: Sequence[float], doubled: Sequence[float], seeds: int) -> None:
-    """Is a deviation one of the diameter or of the number of particles across the specimen? The
-    finest particles in specimens as many diameters wide and high as those of the coarse ones, and
+    """Separates the effect of the diameter from that of the number of particles across the specimen:
+    the finest particles in specimens as many diameters wide and high as those of the coarse ones, and
     some of the coarse ones in specimens twice as wide and high."""
     for material, fine, levels in ((BASE, finest, some.levels),
                                    (PULL_OFF, pull_off_reference, some.levels[-1:])):
@@ -186,7 +186,7 @@ def _add_sizes(some: _Collector, finest: float, pull_off_reference: float,
 
 
 def special_of(specimen: Confined, plan: Plan) -> str:
-    """What makes a specimen another than those that are compared over the diameters."""
+    """The difference of a specimen from those that are compared over the diameters."""
     words = []
     if specimen.strain_rate != Confined.strain_rate:
         words.append(f"{specimen.strain_rate:g}/s")
@@ -196,7 +196,7 @@ def special_of(specimen: Confined, plan: Plan) -> str:
 
 
 def describe(plan: Plan, jobs: int, particle_steps: float) -> str:
-    """The plan as a table: what, how many, and about how long."""
+    """The plan as a table: runs, their number, and about how long they take."""
     lines = [f"{'parameters':<24}{'mode':<10}{'d (mm)':>7}{'particles':>11}{'seeds':>7}{'runs':>6}"
              f"{'core-minutes':>14}"]
     groups: Dict[Tuple, List[Run]] = {}

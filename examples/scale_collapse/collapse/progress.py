@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""Says how far the study is: which run of how many, step of steps, time left."""
+"""Shows the progress of the study: present run, step, time left."""
 from __future__ import annotations
 
 import shutil
@@ -24,7 +24,7 @@ class Progress:
         self._shown = time.monotonic()
         self._started = time.monotonic()
         self._finished: Dict[Case, int] = {}
-        # How much longer or shorter runs like this one were than foreseen.
+        # Ratio of the actual time of runs like this one to the estimate.
         self._correction: Dict[Tuple, List[float]] = {}
         self._work_before = 0.0
 
@@ -89,7 +89,7 @@ class Progress:
             rest.append(work)
         if done <= 0.0 or elapsed < 3.0:
             return "time left not known yet"
-        # No run ends before its own time, however many others are run beside it.
+        # The time left is at least that of each run, for any number of jobs.
         width = min(self._jobs, max(1, len(rest)))
         per_job = done / (elapsed * min(self._jobs, len(self._finished) + len(running)))
         seconds = max(sum(rest) / width, max(rest, default=0.0)) / per_job

@@ -23,7 +23,7 @@ WIDTH = {"-": 1.6, "--": 1.0}
 
 @dataclass(frozen=True)
 class Timing:
-    """What one run took: loop times of LAMMPS in seconds."""
+    """Loop times of LAMMPS in one run, in seconds."""
 
     particles: int
     loading_seconds: float

@@ -56,8 +56,8 @@ class Launcher:
     ranks: int = 1
 
     def command(self, case: Case, folder: Path) -> List[str]:
-        """Reads the copy of the in-file in the run's folder: LAMMPS reads as it goes, and whoever
-        edits the in-file meanwhile shall not change a run that has begun."""
+        """The command reads a copy of the in-file in the run's folder: LAMMPS reads in-files during the
+        run, and an edit meanwhile must not change a run that has begun."""
         words = [self.mpirun, "-np", str(self.ranks), str(self.lmp), "-in",
                  str(folder / self.infile_of(case).name), "-log", str(folder / LOG), "-var", "out",
                  str(folder), "-var", "files", str(folder), *case.variables()]
@@ -75,8 +75,8 @@ class Launcher:
         return case.fingerprint([path.read_bytes() for path in self.inputs(case)], self.ranks)
 
     def inputs(self, case: Case) -> List[Path]:
-        """The files that decide on the result: in-files, also of the run that this one needs, and
-        build/lmp, which loads the plugin that lies beside it."""
+        """The files on which the result depends: in-files, also of the run that this one needs, and
+        build/lmp with the plugin beside it."""
         plugin = self.lmp.with_name("eepaplugin.so")
         before = with_includes(self.infile_of(case.needs)) if case.needs is not None else []
         return (with_includes(self.infile_of(case)) + before + [self.lmp]
@@ -103,7 +103,7 @@ def is_complete(folder: Path, fingerprint: str) -> bool:
 
 
 def read_marker(folder: Path) -> dict:
-    """What a finished run noted: parameters, times and steps of each stage."""
+    """The record of a finished run: parameters, times and steps of each stage."""
     return json.loads((folder / MARKER).read_text(encoding="utf-8"))
 
 
@@ -137,7 +137,7 @@ class Runner:
         self._versions: Dict[str, str] = {}
 
     def run(self, cases: Sequence[Case], redo: bool = False, poll_seconds: float = 0.25) -> None:
-        """Runs what is not there yet.
+        """Runs the cases that are not finished.
 
         :raise RunFailed: on the first run that fails; the others are stopped
         """
@@ -154,7 +154,7 @@ class Runner:
                 waiting.append((case, fingerprint))
         order = {case: place for place, case in enumerate(cases)}
         waiting.sort(key=lambda entry: order[entry[0]])
-        # As they are now: whoever commits meanwhile does not change what is under way.
+        # Read once, so that a commit meanwhile does not change the present runs.
         self._versions = ({"commit": commit(), "lammps": lammps(self._launcher.lmp)} if waiting
                           else {})
         self._progress.begin()
@@ -251,8 +251,8 @@ class Runner:
 
 @contextmanager
 def _deferred_signals() -> Iterator[List[int]]:
-    """Ctrl-C and a kill are put on the list that this gives instead of striking anywhere, such as
-    between the start of a run and the note that it was started."""
+    """Collects Ctrl-C and kill signals in the list that it yields, so that they do not interrupt the
+    program between the start of a run and its record."""
     received: List[int] = []
     numbers = (signal.SIGINT, signal.SIGTERM)
     before = {}
@@ -290,8 +290,8 @@ def _failure(active: _Active, folder: Path) -> str:
 
 
 def _up_to_error(lines: List[str]) -> List[str]:
-    """The last lines; where there is an error, those that lead to it, without what mpirun has to
-    say about it afterwards."""
+    """The last lines; where there is an error, those that lead to it, without the messages of mpirun
+    that follow."""
     errors = [k for k, line in enumerate(lines) if line.startswith("ERROR")]
     return lines[:errors[-1] + 2][-20:] if errors else lines[-20:]
 

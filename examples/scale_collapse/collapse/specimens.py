@@ -13,8 +13,8 @@ from .cases import DENSITY, LAWS, fingerprint_of, require_positive
 
 #: Porosity at which a tensile strength is turned into a pull-off force.
 POROSITY = 0.4
-#: Of a packing and its contacts, only to foresee how long a run will be: strains of packing and of
-#: crushing to the end, steps of the bath.
+#: Only for an estimate of the time of a run: strains of packing and of crushing to the end, steps of
+#: the bath.
 PACKING_STRAIN, CRUSHING_STRAIN, RELAXING_STEPS = 0.06, 0.03, 2000
 #: As in.confined has them: s, and parts of the strain rate up to the first level and of crushing.
 HOLD, FIRST, CRUSHING = 0.01, 0.4, 0.6
@@ -122,7 +122,7 @@ class Confined:
 
     @property
     def size(self) -> float:
-        """What the law multiplies stiffnesses by."""
+        """The factor by which the law multiplies stiffnesses."""
         return self.diameter / self.reference_diameter if self.scaled else 1.0
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""Fits with the error that the seeds' scatter leaves. Errors are standard errors."""
+"""Fits with their errors from the scatter of the seeds. Errors are standard errors."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ def value_of(numbers: Sequence[float]) -> Value:
 
 
 def ratio_percent(one: Value, reference: Value) -> Value:
-    """How far one is from the reference, in % of it."""
+    """Difference from the reference, in % of it."""
     ratio = one.value / reference.value
     error = np.hypot(one.error / reference.value, ratio * reference.error / reference.value)
     return Value(100.0 * (ratio - 1.0), float(100.0 * error))
@@ -37,8 +37,8 @@ def ratio_of_means(ones: Sequence[float], references: Sequence[float]) -> Value:
 
 
 def paired_percent(ones: Mapping[int, float], references: Mapping[int, float]) -> Value:
-    """How far some numbers are from others of the same packings (by seed), in % of those: the
-    mean over the packings that both have, and its error."""
+    """Differences of numbers from others of the same packings (by seed), in % of the latter: mean over
+    the packings that both have, and its error."""
     return value_of([100.0 * (one / references[seed] - 1.0) for seed, one in ones.items()
                      if seed in references])
 
@@ -105,8 +105,8 @@ def best_factors(factors: Sequence[float], responses: Sequence[Sequence[float]],
 
 
 def pooled(values: Sequence[Value]) -> List[Value]:
-    """The same with one error for all, the root mean square of theirs: of a few seeds each, the
-    errors themselves scatter too much to weigh the values with."""
+    """The same with one error for all, the root mean square of theirs: with a few seeds each, the errors
+    themselves scatter too much to serve as weights."""
     error = float(np.sqrt(np.mean([v.error**2 for v in values])))
     return [Value(v.value, error) for v in values]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""Versions of what ran and of what made a report."""
+"""Versions of the programs that ran and of those that made a report."""
 from __future__ import annotations
 
 import os
