@@ -24,6 +24,7 @@ class WallSurfaces : public eepa::WallShape {
 
   /// Number of a surface in restart files: 0 for lo and a cylinder's inner side, 1 for the other.
   int face(int surface) const { return is_plane() && !has_lo ? 1 : surface; }
+
   /// Position along the normal of the first surface; the radius of a cylinder.
   double position() const
   {

@@ -19,8 +19,8 @@ struct Spread {
   double low = -2.0, high = 0.0;
   double overlap = 1.0;    ///< [length]
   double mass = 1.0;
-  double largest_ratio = 1.0;      ///< of numbers without a unit and without an upper bound
-  double ends = 0.2;               ///< how often a number is the end of its range, where there is one
+  double largest_ratio = 1.0;    ///< of numbers without a unit and without an upper bound
+  double ends = 0.2;             ///< how often a number is the end of its range, where there is one
 };
 
 /// The size that a number of this dimension has in a contact of stiffness k1.
@@ -34,22 +34,24 @@ inline double natural_size(const eepa::Dimension &d, const Spread &spread, doubl
 
 /// A value of `number` in its range. The numbers before it in the table are drawn already.
 template <class Draw>
-double random_number(Draw &draw, const Spread &spread, const eepa::Number &number,
+double random_number(Draw &&draw, const Spread &spread, const eepa::Number &number,
                      const eepa::Parameters &p, const eepa::LawSettings &s)
 {
   const eepa::Range &range = number.range;
-  const auto between = [&](double low, double high) { return low + (high - low) * draw(); };
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * draw();
+  };
   const bool at_the_end = draw() < spread.ends;
   if (number.member == &eepa::Parameters::k1)
     return std::pow(10.0, between(spread.k1_low, spread.k1_high));
   if (range.least) {
     const double least = p.*range.least * eepa::entry_of(s.law).least_ratio;
-    return at_the_end ? least
-                      : least * (1.0 + std::pow(10.0, between(spread.low, spread.high)));
+    return at_the_end ? least : least * (1.0 + std::pow(10.0, between(spread.low, spread.high)));
   }
-  if (std::isfinite(range.low) && std::isfinite(range.high))
-    return at_the_end && !range.low_is_excluded ? (draw() < 0.5 ? range.low : range.high)
-                                                : between(range.low, range.high);
+  if (std::isfinite(range.low) && std::isfinite(range.high)) {
+    if (!at_the_end) return range.high - (range.high - range.low) * 0.999 * draw();
+    return range.low_is_excluded || draw() < 0.5 ? range.high : range.low;
+  }
   if (at_the_end && !range.low_is_excluded) return 0.0;
   const bool has_unit = number.dimension.force != 0 || number.dimension.time != 0 ||
       number.dimension.length != 0;
@@ -62,7 +64,7 @@ double random_number(Draw &draw, const Spread &spread, const eepa::Number &numbe
 
 /// Draws which alternatives hold.
 template <class Draw>
-void draw_choices(Draw &draw, const eepa::LawSettings &s, eepa::Parameters &p)
+void draw_choices(Draw &&draw, const eepa::LawSettings &s, eepa::Parameters &p)
 {
   eepa::for_each_choice([&](const eepa::Choice &choice) {
     choice.set(p, std::min(static_cast<int>(draw() * choice.count), choice.count - 1));
@@ -72,7 +74,8 @@ void draw_choices(Draw &draw, const eepa::LawSettings &s, eepa::Parameters &p)
 
 /// Draws all numbers that the law reads; the others get their defaults.
 template <class Draw>
-void draw_numbers(Draw &draw, const Spread &spread, const eepa::LawSettings &s, eepa::Parameters &p)
+void draw_numbers(Draw &&draw, const Spread &spread, const eepa::LawSettings &s,
+                  eepa::Parameters &p)
 {
   const eepa::Parameters defaults;
   eepa::for_each_number([&](const eepa::Number &number) {

@@ -7,6 +7,8 @@
 #include <eepa/eepa.h>
 #include <eepa_commands/validation.h>
 
+#include "../random_parameters.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,13 +21,13 @@ namespace {
 
 using namespace eepa;
 
-#define REQUIRE(condition, value, limit)                                                        \
-  do {                                                                                          \
-    if (!(condition)) {                                                                         \
+#define REQUIRE(condition, value, limit)                                                           \
+  do {                                                                                             \
+    if (!(condition)) {                                                                            \
       std::fprintf(stderr, "%s:%d: violated: %s (%.17g, %.17g)\n", __FILE__, __LINE__, #condition, \
-                   static_cast<double>(value), static_cast<double>(limit));                     \
-      std::abort();                                                                             \
-    }                                                                                           \
+                   static_cast<double>(value), static_cast<double>(limit));                        \
+      std::abort();                                                                                \
+    }                                                                                              \
   } while (false)
 
 /// Numbers out of bytes; zeros when they are used up.
@@ -48,11 +50,6 @@ class Bytes {
   double between(double low, double high) { return low + (high - low) * unit(); }
   /// evenly over decades
   double decades(double low, double high) { return std::pow(10.0, between(low, high)); }
-  /// 0 a quarter of the time
-  double zero_or_decades(double low, double high)
-  {
-    return next() % 4 == 0 ? 0.0 : decades(low, high);
-  }
   Vec3 vector(double magnitude)
   {
     const double x = between(-magnitude, magnitude), y = between(-magnitude, magnitude);
@@ -81,7 +78,9 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
   const double other_radius = wall ? INFINITY : radius * bytes.decades(-2, 2);
   const double smaller = std::min(radius, other_radius);
   const double density = bytes.decades(0, 4);
-  const auto mass = [&](double r) { return 4.0 / 3.0 * M_PI * density * r * r * r; };
+  const auto mass = [&](double r) {
+    return 4.0 / 3.0 * M_PI * density * r * r * r;
+  };
 
   Contact contact;
   contact.size = wall ? 2.0 * radius : radius + other_radius;
@@ -124,8 +123,7 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     }
     const History before = load_history<Layout>(stored.data());
     History history = before;
-    const Response r =
-        ContactLaw::evaluate(c, contact, time_step, history);
+    const Response r = ContactLaw::evaluate(c, contact, time_step, history);
 
     REQUIRE(std::isfinite(r.normal_force), r.normal_force, 0);
     REQUIRE(std::isfinite(r.hysteretic_force), r.hysteretic_force, 0);
@@ -149,8 +147,7 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     const StoredEnergy energy = ContactLaw::stored_energy(c, contact, history);
     REQUIRE(std::isfinite(energy.total()), energy.total(), 0);
     REQUIRE(energy.tangential >= 0.0 && energy.rolling >= 0.0, energy.tangential, energy.rolling);
-    if (settings.law == Law::linear && p.f0 == 0.0)
-      REQUIRE(energy.normal >= 0.0, energy.normal, 0);
+    if (settings.law == Law::linear && p.f0 == 0.0) REQUIRE(energy.normal >= 0.0, energy.normal, 0);
 
     // i and j changed places, the stored numbers with their signs turned as LAMMPS does
     Contact swapped = contact;
@@ -160,7 +157,9 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     swapped.turn = -contact.turn;
     swapped.twist = -contact.twist;
     std::array<double, Layout::size> turned;
-    std::transform(stored.begin(), stored.end(), turned.begin(), [](double x) { return -x; });
+    std::transform(stored.begin(), stored.end(), turned.begin(), [](double x) {
+      return -x;
+    });
     History other = load_history<Layout>(turned.data());
     const Response o = ContactLaw::evaluate(c, swapped, time_step, other);
     REQUIRE(o.normal_force == r.normal_force, o.normal_force, r.normal_force);
@@ -171,8 +170,8 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
       REQUIRE(o.rolling_torque == -r.rolling_torque, o.rolling_torque.norm(),
               r.rolling_torque.norm());
     if constexpr (ContactLaw::has_twisting) {
-      const double limit = 2.0 / 3.0 * r.friction_bound *
-          std::sqrt(contact.effective_radius * overlap);
+      const double limit =
+          2.0 / 3.0 * r.friction_bound * std::sqrt(contact.effective_radius * overlap);
       REQUIRE(std::fabs(r.twisting_torque) <= limit * (1 + 1e-12) + 1e-150, r.twisting_torque,
               limit);
       REQUIRE(o.twisting_torque == r.twisting_torque, o.twisting_torque, r.twisting_torque);
@@ -187,8 +186,8 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
 
     // A slider that jumps by more than its bound's worth in one step is booked by a trapezoid
     // that is negative by up to k displacement^2 / 8.
-    const Dissipation lost = dissipation_of_step<ContactLaw>(c, contact, r, time_step, first,
-                                                             before, history);
+    const Dissipation lost =
+        dissipation_of_step<ContactLaw>(c, contact, r, time_step, first, before, history);
     const double normal_velocity = contact.velocity.dot(contact.normal);
     const double moved = time_step * tangential_velocity(contact, normal_velocity).norm();
     const double rolled = time_step * contact.effective_radius * contact.angular_velocity.norm();
@@ -224,43 +223,29 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   Bytes bytes(data, size);
   LawSettings s;
   Parameters p;
-  s.law = bytes.next() % 2 == 0 ? Law::plateau : Law::linear;
-  if (s.law == Law::linear && bytes.next() % 2 == 0) s.exponent = bytes.between(1.0, 2.0);
+  s.law = static_cast<Law>(bytes.next() % law_count);
+  if (entry_of(s.law).has_exponent && bytes.next() % 2 == 0) s.exponent = bytes.between(1.0, 2.0);
   s.limit_damping = bytes.next() % 2 == 0;
   s.scaled = bytes.next() % 2 == 0;
   if (s.scaled) s.reference_diameter = bytes.decades(-5, 1);
 
-  p.k1 = bytes.decades(-2, 10);
-  const unsigned ratio = bytes.next() % 4;
-  p.k2 = ratio == 0 ? p.k1 : ratio == 1 ? 2.0 * p.k1 : p.k1 * bytes.decades(0, 4);
-  if (s.law == Law::plateau && p.k2 < 2.0 * p.k1) p.k2 = 2.0 * p.k1;
-  p.k_adh = p.k1 * bytes.zero_or_decades(-6, 3);
-  p.f0 = -bytes.zero_or_decades(-8, 4);
-  p.mu = bytes.zero_or_decades(-4, 1);
-  p.kt_given = s.exponent != 1.0 || bytes.next() % 2 == 0;
-  if (p.kt_given) p.kt = p.k1 * bytes.zero_or_decades(-6, 2);
-  if (bytes.next() % 4 == 0) {
-    p.damping = Damping::viscous;
-    p.viscous_normal = bytes.zero_or_decades(-6, 4);
-    p.viscous_tangential = bytes.zero_or_decades(-6, 4);
-  } else {
-    p.restitution = bytes.unit();
-  }
-  const std::array<RollingModel, 3> models{RollingModel::none, RollingModel::constant,
-                                           RollingModel::sds};
-  p.rolling = models[bytes.next() % 3];
-  if (p.rolling != RollingModel::none) p.mu_r = bytes.zero_or_decades(-4, 1);
-  if (p.rolling == RollingModel::sds) {
-    p.kr = p.k1 * bytes.zero_or_decades(-6, 2);
-    p.rolling_viscous = bytes.zero_or_decades(-6, 4);
-  }
-
-  if (bytes.next() % 2 == 0) p.twisting = TwistingModel::marshall;
+  eepa_test::Spread spread{-2.0, 10.0};
+  spread.low = -6.0;
+  spread.high = 3.0;
+  spread.largest_ratio = 10.0;
+  spread.ends = 0.25;
+  const auto draw = [&bytes] {
+    return bytes.unit();
+  };
+  eepa_test::draw_choices(draw, s, p);
+  eepa_test::draw_numbers(draw, spread, s, p);
 
   const Findings found = validate(s);
   REQUIRE(found.errors.empty(), found.errors.size(), 0);
   const Findings findings = validate(p, s);
   REQUIRE(findings.errors.empty(), findings.errors.size(), 0);
-  with_law(s, p, [&](auto law) { live<std::decay_t<decltype(law)>>(bytes, p, s); });
+  with_law(s, p, [&](auto law) {
+    live<std::decay_t<decltype(law)>>(bytes, p, s);
+  });
   return 0;
 }

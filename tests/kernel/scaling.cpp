@@ -102,6 +102,39 @@ TEST(Scaling, AnyOtherSizeIsSimilarToRounding)
   for (double n : {1.0, 1.5, 2.0}) EXPECT_LT(worst_deviation(1.7, n, 63), 1e-12) << n;
 }
 
+// The powers of s in the table of parameters are those of the laws: a contact of the size s d_ref is that
+// of parameters which were multiplied by their powers.
+TEST(Scaling, MultipliesEveryParameterByItsPower)
+{
+  Random random(64);
+  double worst = 0.0;
+  for (int k = 0; k < 300; k++) {
+    Material m = any_material(random);
+    Bodies b = any_bodies(random);
+    const double s = random.decades(-1.0, 1.0);
+    scale_with_diameter(m, b.size() / s);
+    Material plain = m;
+    plain.law.scaled = false;
+    for_each_number([&](const Number &number) {
+      plain.p.*number.member *= std::pow(s, number.dimension.power(m.law.exponent));
+    });
+    any_motion(random, b);
+    for (double share : {0.001, 0.05, 0.04, 0.01}) {
+      History history;
+      history.max_overlap = 0.06 * share * std::min(b.R_i, b.R_j);
+      History again = history;
+      b.overlap = share * std::min(b.R_i, b.R_j);
+      const Outcome x = evaluate(m, b, 1e-6, history);
+      const Outcome y = evaluate(plain, b, 1e-6, again);
+      const double force = x.force.norm() + x.friction_bound;
+      worst = std::max({worst, deviation(x.force, y.force, force),
+                        deviation(x.torque_i, y.torque_i, force * b.R_i),
+                        deviation(x.friction_bound, y.friction_bound, force)});
+    }
+  }
+  EXPECT_LT(worst, 1e-11);
+}
+
 TEST(Scaling, CoefficientsOfALargerContact)
 {
   for (double n : {1.0, 1.5, 2.0}) {

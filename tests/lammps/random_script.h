@@ -4,6 +4,10 @@
 
 #include "packing.h"
 
+#include "../random_parameters.h"
+
+#include <eepa_commands/commands.h>
+
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -11,8 +15,9 @@
 namespace eepa_test {
 
 /// A small random problem with this package's features, drawn from a seed: law, coefficients,
-/// walls, their motion, particles, and commands between runs. Add a new feature to one of the
-/// functions below that draw, and every comparison tests it.
+/// walls, their motion, particles, and commands between runs. Laws and parameters are those of the
+/// table of parameters. Add another feature to one of the functions below that draw, and every
+/// comparison tests it.
 class RandomScript {
  public:
   /// A run and the commands between it and the next one.
@@ -35,6 +40,7 @@ class RandomScript {
   std::string boundary;    ///< of the box, that is [-half, half] in each direction
   double half = 0.0;
   std::vector<std::string> walls;    ///< IDs of the wall fixes
+  bool walls_move = false;           ///< whether any of them changes its place
   std::vector<Stage> stages;
 
   std::string text() const
@@ -47,8 +53,9 @@ class RandomScript {
 
  private:
   std::mt19937 generator_;
-  bool linear_ = true;
-  std::string style_, rolling_;
+  std::string style_;
+  eepa::LawSettings settings_;
+  eepa::Parameters parameters_;
 
   int number(int below) { return static_cast<int>(generator_() % static_cast<unsigned>(below)); }
   bool chance(int percent) { return number(100) < percent; }
@@ -76,16 +83,21 @@ class RandomScript {
 
   void draw_law()
   {
-    linear_ = chance(60);
-    style_ = linear_ ? "linear" : "plateau";
+    settings_.law = static_cast<eepa::Law>(number(eepa::law_count));
+    style_ = eepa::entry_of(settings_.law).name;
     if (chance(50)) style_ += " scale" + word(between(0.5, 2.0));
-    exponent_ = linear_ && chance(30) ? between(1.0, 1.8) : 1.0;
-    if (exponent_ > 1.0) style_ += " exponent" + word(exponent_);
+    if (eepa::entry_of(settings_.law).has_exponent && chance(40)) {
+      style_ += " exponent" + word(between(1.0, 1.8));
+      settings_.exponent = std::stod(style_.substr(style_.rfind(' ')));
+    }
     if (chance(30)) style_ += " limit_damping yes";
     style_ += " dtcheck off";
-    const int kind = number(3);
-    rolling_ = kind == 0 ? "" : kind == 1 ? "constant" : "sds";
-    dashpot_ = number(3);
+    // those of one script can be mixed and used together
+    draw_choices(
+        [this] {
+          return between(0.0, 1.0);
+        },
+        settings_, parameters_);
     pair = "pair_style gran/eepa " + style_;
     pair += "\npair_coeff * *" + coefficients();
     if (chance(50)) pair += "\npair_coeff 2 2" + coefficients();
@@ -94,18 +106,19 @@ class RandomScript {
 
   std::string coefficients()
   {
-    const double k1 = between(0.5e4, 1.5e4);
-    const double k2 = k1 * (linear_ ? between(1.0, 4.0) : between(2.0, 3.0));
-    std::string words = word(k1) + word(k2) + word(chance(70) ? between(0.0, 1e4) : 0.0) +
-        word(chance(50) ? -between(0.0, 5.0) : 0.0) + word(chance(80) ? between(0.0, 1.0) : 0.0);
-    if (exponent_ > 1.0 || chance(40)) words += " kt" + word(between(0.0, k1));
-    if (dashpot_ == 1) words += " restitution" + word(between(0.1, 1.0));
-    if (dashpot_ == 2) words += " viscous" + word(between(0.0, 10.0)) + word(between(0.0, 10.0));
-    if (rolling_ == "constant") words += " rolling constant" + word(between(0.0, 0.2));
-    if (rolling_ == "sds")
-      words += " rolling sds" + word(between(0.0, 5e3)) + word(between(0.0, 5.0)) +
-          word(between(0.0, 0.3));
-    return words;
+    Spread spread{3.7, 4.2};
+    spread.low = -1.0;
+    spread.overlap = 5e-4;
+    spread.mass = 0.01;
+    const auto draw = [this] {
+      return between(0.0, 1.0);
+    };
+    eepa::for_each_choice([&](const eepa::Choice &choice) {
+      if (choice.merge == eepa::Merge::either) choice.set(parameters_, number(choice.count));
+    });
+    if (settings_.exponent != 1.0) parameters_.kt_given = true;
+    draw_numbers(draw, spread, settings_, parameters_);
+    return " " + eepa::to_words(parameters_);
   }
 
   void draw_walls()
@@ -140,6 +153,8 @@ class RandomScript {
 
   void add_wall(const std::string &surface, const std::string &motion)
   {
+    for (const char *drive : {" velocity", " wiggle", " load"})
+      if (motion.find(drive) == 0) walls_move = true;
     walls.push_back("wall" + std::to_string(walls.size() + 1));
     fixes += "fix " + walls.back() + " all wall/gran/eepa " + style_ + " coeff" + coefficients() +
         " wall " + surface + motion + (chance(30) ? " contacts" : "") + "\n";
@@ -179,9 +194,6 @@ class RandomScript {
         return "";
     }
   }
-
-  double exponent_ = 1.0;
-  int dashpot_ = 0;
 };
 
 }    // namespace eepa_test
