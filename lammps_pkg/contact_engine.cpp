@@ -23,7 +23,7 @@ namespace {
     {
       int n = 0;
 #ifdef EEPA_HAS_LANES
-      const eepa::Coefficients c = given;    // on the stack no force can overwrite it
+      const eepa::Coefficients c = given;    // a local copy, which no store of a force can alias
       const ParticleArrays p = particles;
       const ForceArrays f = forces;
       for (; n + ContactLanes::width <= count; n += ContactLanes::width)
@@ -64,12 +64,12 @@ namespace {
       eepa::History history;
       if (values) {
         history = eepa::load_history<Layout>(values);
-        // a twist has the same sign for both
+        // the twist has the same sign seen from i and from j
         history.tangential_spring *= sign;
         history.rolling_spring *= sign;
       }
-      // the energies are those of the springs as the last step left them: an evaluation with the
-      // velocities of the end of the step could let a sliding contact slip once more
+      // energies are those of the springs after the last step: an evaluation with the velocities of
+      // the end of the step could let a sliding contact slip once more
       const eepa::History stored = history;
       ContactReport report;
       report.response = ContactLaw::evaluate(c, contact, 0.0, history);

@@ -14,37 +14,37 @@
 
 namespace LAMMPS_NS {
 
-/// What a force call asks of each contact.
+/// What a force call requests for each contact.
 struct StepRequest {
-  double time_step = 0.0;       ///< that led here; 0 in the force call of a set-up [time]
-  bool advance = false;         ///< keep the new state; a set-up leaves states as they are
-  bool wants_energy = false;    ///< StoredEnergy
-  bool wants_losses = false;    ///< Dissipation of the step
+  double time_step = 0.0;       ///< step to the present positions; 0 in a set-up [time]
+  bool advance = false;         ///< keep the new state; a set-up does not change states
+  bool wants_energy = false;    ///< compute StoredEnergy
+  bool wants_losses = false;    ///< compute Dissipation of the step
   bool booked = true;           ///< whether the step before was booked: see dissipation_of_step()
 };
 
-/// What a force call gets of a contact.
+/// Result of a force call for one contact.
 struct ContactOutcome {
   eepa::Wrench<double> wrench;
   int status;                   ///< see eepa::ContactStatus
   double max_overlap;           ///< delta_max after the call [length]
-  eepa::StoredEnergy energy;    ///< where asked for
-  eepa::Dissipation lost;       ///< where asked for
+  eepa::StoredEnergy energy;    ///< if requested
+  eepa::Dissipation lost;       ///< if requested
 };
 
-/// A contact as somebody looks at it between two steps.
+/// State and forces of a contact, queried between two steps.
 struct ContactReport {
-  eepa::Response response;                ///< with 0 for what the law does not have
+  eepa::Response response;                ///< torques that the law does not have are 0
   double max_overlap, plastic_overlap;    ///< [length]
   eepa::StoredEnergy energy;
 };
 
-/// The work on contacts that depends on the law. Pair style, its variant with threads and walls hold
-/// one each, made once a run for the law that the user chose; what they do themselves is the same
-/// for all laws.
+/// Everything about contacts that depends on the law. The pair style, its threaded variant and each
+/// wall hold one engine, made once a run for the law that the user chose; their own code is the
+/// same for all laws.
 ///
-/// There are two evaluations. That in lanes takes a block of pairs of particles, in steps that need
-/// forces and nothing else. The scalar one takes any single contact and answers what is asked.
+/// There are two evaluations. The one in lanes takes a block of pairs of particles, in steps that
+/// need only forces. The scalar one takes any single contact and computes what is requested.
 class ContactEngine {
  public:
   virtual ~ContactEngine() = default;
@@ -63,21 +63,21 @@ class ContactEngine {
                                   const eepa::Contact &contact, bool first,
                                   double *history) const = 0;
 
-  /// What a contact dissipates that has opened, or was taken away.
+  /// Energy dissipated by a contact that has opened or was taken away.
   virtual eepa::Dissipation open(const eepa::Coefficients &c, const StepRequest &request,
                                  const eepa::Contact &contact, const double *history) const = 0;
 
-  /// Looks at a contact and changes nothing.
+  /// Evaluates a contact without a change of its state.
   /// \param history  of the contact, or nullptr where it has none
-  /// \param sign  -1 where the history is that of the contact seen from j
+  /// \param sign  -1 where the history is stored for the exchanged pair, j and i
   virtual ContactReport report(const eepa::Coefficients &c, const eepa::Contact &contact,
                                const double *history, double sign) const = 0;
 
-  /// Values that a contact remembers.
+  /// Number of values of a contact's history.
   virtual int history_size() const = 0;
 };
 
-/// The engine of the law that was chosen.
+/// Makes the engine of the chosen law.
 std::unique_ptr<const ContactEngine> make_contact_engine(const eepa::LawSettings &settings,
                                                          eepa::RollingModel rolling,
                                                          eepa::TwistingModel twisting);

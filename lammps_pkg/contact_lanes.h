@@ -13,7 +13,7 @@
 
 namespace LAMMPS_NS {
 
-/// A contact in each lane.
+/// As many contacts as there are lanes.
 class ContactLanes {
  public:
   static constexpr int width = static_cast<int>(eepa::Lanes::size());
@@ -42,7 +42,7 @@ class ContactLanes {
     eepa::HistoryOf<Lanes> history = eepa::load_history<Layout>(history_);
     const eepa::ResponseOf<Lanes> response = ContactLaw::evaluate(c, contact, time_step, history);
     eepa::store_history<Layout>(history, history_);
-    // looked up here, for there are too few registers to keep them from the start
+    // looked up only here, because there are too few registers to keep them from the start
     eepa::LanePointers<int> status;
     for (int lane = 0; lane < width; lane++) status[lane] = found_[lane].status;
     eepa::ContactStatus::store(response, status);

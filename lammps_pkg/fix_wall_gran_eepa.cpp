@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What FixWallGranEepa does outside the force call: its command, set-up, per-atom arrays.
+// FixWallGranEepa outside the force call: its command, set-up, per-atom arrays.
 
 #include "fix_wall_gran_eepa.h"
 
@@ -107,7 +107,7 @@ FixWallGranEepa::~FixWallGranEepa()
 
 int FixWallGranEepa::setmask()
 {
-  // fix_modify may load a wall at any time
+  // fix_modify may set a load between any two runs
   return FixConst::INITIAL_INTEGRATE | FixConst::POST_FORCE | FixConst::FINAL_INTEGRATE;
 }
 
@@ -130,7 +130,7 @@ std::string FixWallGranEepa::style_name() const
   return std::string("fix ") + id + " wall/gran/eepa";
 }
 
-/// Only once, be there several walls and a pair style.
+/// Warns only once, also with several walls and a pair style.
 void FixWallGranEepa::warn_of_rotation()
 {
   if (comm->me != 0) return;
@@ -161,7 +161,7 @@ TimeStepBound FixWallGranEepa::largest_time_step(const std::vector<AnnouncedPart
   return bound;
 }
 
-/// At the start of a run, and when particles came. Collective.
+/// Checks the time step at the start of a run and when particles were inserted. Collective.
 void FixWallGranEepa::check_time_step()
 {
   checked_particles = atom->natoms;
@@ -192,7 +192,7 @@ double FixWallGranEepa::contact_time_step()
 
 double FixWallGranEepa::platen_time_step() const
 {
-  // on its contacts the platen is a mass on springs side by side
+  // the platen is a mass on parallel springs
   const double stiffness = felt_vector[CONTACTS] * load_stiffness;
   return stiffness > 0.0 ? eepa::largest_time_step(platen.mass, stiffness)
                          : std::numeric_limits<double>::infinity();
@@ -211,7 +211,7 @@ void FixWallGranEepa::check_platen()
                   id, dt, bound, platen.mass, felt_vector[CONTACTS]));
 }
 
-/// As dtcheck says: an error or a warning.
+/// Raises an error or a warning, according to dtcheck.
 void FixWallGranEepa::complain(const std::string &message)
 {
   if (style.time_step_check == eepa::TimeStepCheck::error)

@@ -57,8 +57,8 @@ class FixWallGranEepa : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  /// The largest stable time step of the contacts with this wall, those of particles that are still
-  /// to come with them. Collective.
+  /// The largest stable time step of the contacts with this wall, those of announced particles
+  /// included. Collective.
   TimeStepBound largest_time_step(const std::vector<AnnouncedParticles> &announced = {});
   /// This rank's energies; all zero unless a compute gran/eepa/energy existed at the last init.
   const EnergyLedger &energy_ledger() const { return ledger; }
@@ -66,28 +66,28 @@ class FixWallGranEepa : public Fix {
  private:
   /// the global vector
   enum {
-    FORCE_X,    ///< of the particles on the wall, all surfaces together
+    FORCE_X,    ///< force of the particles on the wall, all surfaces together
     FORCE_Y,
     FORCE_Z,
-    POSITION,    ///< of the first surface along its normal
+    POSITION,    ///< position of the first surface along its normal
     VELOCITY,
     CONTACTS,
-    FIRST_FORCE_X,    ///< on the first surface (lo, or the only one)
+    FIRST_FORCE_X,    ///< force on the first surface (lo, or the only one)
     FIRST_FORCE_Y,
     FIRST_FORCE_Z,
-    SECOND_FORCE_X,    ///< on the second surface (hi next to lo), else 0
+    SECOND_FORCE_X,    ///< force on the second surface (hi next to lo), else 0
     SECOND_FORCE_Y,
     SECOND_FORCE_Z,
-    LOAD_FORCE,    ///< of `load`, along the plane's axis
+    LOAD_FORCE,    ///< force of `load`, along the plane's axis
     LOAD_KINETIC_ENERGY,
-    LOAD_WORK,          ///< done by LOAD_FORCE so far, and what a change of drive gave the platen
-    LOAD_DISSIPATED,    ///< by the platen's damping, limits and changes of drive so far
+    LOAD_WORK,          ///< work of LOAD_FORCE so far, kinetic energy gained by changes of drive
+    LOAD_DISSIPATED,    ///< loss by the platen's damping, limits and changes of drive so far
     N_VECTOR
   };
   /// the per-atom table that keyword `contacts` asks for
   enum {
-    ATOM_CONTACTS,    ///< surfaces in contact
-    ATOM_FORCE_X,     ///< on the particle, all surfaces together
+    ATOM_CONTACTS,    ///< number of surfaces in contact
+    ATOM_FORCE_X,     ///< force on the particle, all surfaces together
     ATOM_FORCE_Y,
     ATOM_FORCE_Z,
     ATOM_POINT_X,    ///< contact point, of the deepest contact as all below
@@ -99,7 +99,7 @@ class FixWallGranEepa : public Fix {
     ATOM_SLIP,
     N_ATOM
   };
-  /// what a surface felt in the last force call, this rank's part
+  /// force and contacts of a surface in the last force call, this rank's part
   struct SurfaceSum {
     double force[3];
     double contacts;
@@ -114,37 +114,36 @@ class FixWallGranEepa : public Fix {
   std::array<double, 2> made_at = {0.0, 0.0};    // planes lo and hi without displacement
   eepa::MotionArguments told;
   WallMotion motion;
-  double sliding = 0.0;    // of a surface by `shear`, as evaluated last
+  double sliding = 0.0;    // velocity of a surface by `shear`, as evaluated last
   Platen platen;
-  double load_now = 0.0;          // force from outside at the last force call
-  double load_stiffness = 0.0;    // the largest of a contact with the platen, all ranks
+  double load_now = 0.0;          // external force at the last force call
+  double load_stiffness = 0.0;    // largest stiffness of a contact with the platen, on all ranks
   bool platen_warned = false, rotation_warned = false, time_step_warned = false;
-  bigint checked_particles = 0;    // how many there were when the time step was checked
+  bigint checked_particles = 0;    // number of particles when the time step was checked
 
   double dt = 0.0;
-  int history_size;              // values of one contact
-  int n_values;                  // values of all surfaces
+  int history_size;              // number of values of one contact
+  int n_values;                  // number of values of all surfaces
   double **history = nullptr;    // nmax x n_values, delta_max = 0 where there is no contact
   bool contact_table = false;
   std::array<SurfaceSum, 2> felt;
   std::array<double, N_VECTOR> felt_vector;
   bool felt_summed = true;    // whether felt_vector has the sum over all ranks of `felt`
 
-  // the atoms that a force call visits: all that can touch a surface before they are collected
-  // again
+  // the atoms that a force call visits: all that can touch a surface before the next collection
   std::vector<int> candidates;
-  WallSurfaces collected_at;        // the surfaces then
-  double way_left = 0.0;            // how far they may go until then
-  bool radii_may_change = false;    // in mid-run
+  WallSurfaces collected_at;        // the surfaces at the last collection
+  double way_left = 0.0;            // travel of the surfaces that requires the next collection
+  bool radii_may_change = false;    // during a run
 
   EnergyLedger ledger;
   bool keep_ledger = false;
   bool ledger_starts = false;    // with the next step: no ledger has booked the one before
   bool after_setup = false;      // whether the last force call was a set-up's
-  std::vector<class ComputeGranEepaEnergyAtom *> atom_losses;    // who wants them by particle
+  std::vector<class ComputeGranEepaEnergyAtom *> atom_losses;    // that sum losses by atom
   double power = 0.0;          // of the surfaces on this rank's particles, at the last force call
-  bool needs_setup = false;    // a platen whose forces no force call has found yet
-  double push = 0.0;           // of the platen on them along its axis, likewise
+  bool needs_setup = false;    // a new platen, on which no force call has computed the reaction
+  double push = 0.0;           // force of the platen on them along its axis, at the last force call
   double drag = 0.0;           // power of a platen's sliding surface on them, likewise
 
   std::unique_ptr<const ContactEngine> engine;    // of the law
@@ -152,7 +151,7 @@ class FixWallGranEepa : public Fix {
 
   void require_walls_in_the_box() const;
   bool loaded() const { return told.drive == eepa::WallDrive::load; }
-  /// Goes over to what was told; place, contacts and a platen's speed stay.
+  /// Changes to another motion and keeps position, contacts and the velocity of a platen.
   void change_motion(const eepa::MotionArguments &next);
   void require_variables(const eepa::MotionArguments &motion) const;
   void require_limits(const eepa::LoadArguments &load, double place) const;
@@ -166,7 +165,7 @@ class FixWallGranEepa : public Fix {
   void sum_forces();
   /// The largest stable time step of particles on the wall. Collective.
   double contact_time_step();
-  /// The largest stable time step of the platen on the contacts that it has now.
+  /// The largest stable time step of the platen on its present contacts.
   double platen_time_step() const;
   void check_platen();
   void book(int i, const eepa::Dissipation &);

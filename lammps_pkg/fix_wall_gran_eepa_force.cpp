@@ -22,7 +22,7 @@ using eepa::Vec3;
 
 void FixWallGranEepa::setup(int vflag)
 {
-  // variables may ask where the wall is
+  // variables may read the position of the wall
   place_surfaces();
   evaluate_motion();
   if (masses.has_bodies()) masses.collect_bodies();
@@ -62,14 +62,14 @@ void FixWallGranEepa::post_force(int /*vflag*/)
     const int dim = surfaces.axis();
     const double push_before = push;
     push = -felt[0].force[dim];
-    // a platen's velocity may change within a step: force times way is what Verlet integrates
+    // a platen's velocity may change within a step, so force times displacement is the work
     const double drag_before = drag;
     drag = told.slides ? -felt[0].force[told.shear_axis] * sliding : 0.0;
     if (keep_ledger && step) {
       ledger.wall_work += 0.5 * (push_before + push) * platen.travel();
       ledger.wall_work += 0.5 * (drag_before + drag) * dt;
     }
-    // MPI gives every rank the same bits, so that all move the same platen
+    // MPI gives every rank the same bits, so that all ranks move the platen alike
     sum_forces();
     load_now = evaluate_load();
     if (!step) platen.set_forces(load_now, felt_vector[FORCE_X + dim]);
@@ -79,23 +79,24 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   }
 }
 
-/// Whether no atom moves by more than half the skin between two neighbour lists. LAMMPS promises that
-/// only where it looks at all of them, or makes a new list, in every step.
+/// Whether no atom moves by more than half the skin between two neighbour lists. LAMMPS ensures
+/// this only if it checks all atoms, or makes a new list, in every step.
 bool FixWallGranEepa::motion_is_bounded() const
 {
   return neighbor->every == 1 && neighbor->delay <= 1 && !neighbor->build_once &&
       !neighbor->includegroup && !radii_may_change;
 }
 
-/// Which atoms can touch a surface, whatever their group, which may change. Where nothing bounds
-/// their motion: which do so now.
+/// Collects the atoms that can touch a surface before the next collection, of any group, because
+/// groups may change. Where their motion is not bounded, collects those that touch at present.
 void FixWallGranEepa::collect_candidates()
 {
   double margin = 0.0;
   way_left = 0.0;
   if (motion_is_bounded()) {
-    // half the skin for the surfaces, and for the atoms as far as they may still go: from where
-    // the neighbour list was made, or from one side of there to the other; and some rounding
+    // Surfaces may move by half the skin. Atoms may move by half the skin from their positions in a
+    // new neighbour list; in an older list they may have done so already, the other way. Some
+    // rounding is added.
     way_left = 0.5 * neighbor->skin;
     margin = (1.0 + 1e-6) * (way_left + (neighbor->ago == 0 ? 0.5 : 1.0) * neighbor->skin);
   }
@@ -120,7 +121,7 @@ double *FixWallGranEepa::history_of(int i, int surface) const
 void FixWallGranEepa::meet(int i)
 {
   if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
-  // one that leaves the group in contact must not find its history when it comes back
+  // a particle that leaves the group in contact must not find its old history when it comes back
   const bool member = atom->mask[i] & groupbit;
   if (!member && !keep_ledger) {
     std::fill_n(history[i], n_values, 0.0);
@@ -136,7 +137,7 @@ void FixWallGranEepa::meet(int i, int surface, bool member)
   double *values = history_of(i, surface);
   const bool known = values[eepa::MAX_OVERLAP] != 0.0;
   if (!known && !surfaces.on_side(surface, x)) return;
-  // a set-up leaves no history: who touched then?
+  // a set-up leaves no history, so whether the particle touched then is found from its motion
   const bool unknown_is_new = !(keep_ledger && after_setup && request.advance);
   if (!known && (!member || (unknown_is_new && !surfaces.reaches(surface, x, radius)))) return;
 
@@ -211,7 +212,7 @@ void FixWallGranEepa::stop_at_overlap(int i, int surface, double overlap) const
       id, atom->tag[i], overlap, update->ntimestep, atom->radius[i], where);
 }
 
-/// Brings the forces and contacts of all ranks together. Collective.
+/// Sums the forces and contacts of all ranks. Collective.
 void FixWallGranEepa::sum_forces()
 {
   double mine[8], all[8];

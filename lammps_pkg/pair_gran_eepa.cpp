@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What PairGranEepa does outside the force call: commands, set-up, restart.
+// PairGranEepa outside the force call: commands, set-up, restart.
 
 #include "pair_gran_eepa.h"
 
@@ -62,24 +62,24 @@ PairGranEepa::PairGranEepa(LAMMPS *lmp) : Pair(lmp), masses(lmp)
 {
   if (lmp->citeme) lmp->citeme->add(citation);
   single_enable = 1;
-  no_virial_fdotr_compute = 1;    // friction is not central: tallied pair by pair
+  no_virial_fdotr_compute = 1;    // friction is not central, so the virial is tallied pair by pair
   centroidstressflag = CENTROID_NOTAVAIL;
   finitecutflag = 1;
   writedata = 1;
-  comm_forward = 2;                      // of fix rigid: a body's mass and number
-  comm_reverse = AtomLosses::kinds;      // what ghosts dissipated
+  comm_forward = 2;                      // mass and number of a body of fix rigid
+  comm_reverse = AtomLosses::kinds;      // losses of ghosts
   single_extra = N_SINGLE;
   svector = new double[N_SINGLE];
 
-  // The ID under which a restart file finds the history again. LAMMPS's styles count the pair
-  // styles that a process ever had; a pair_style before this one, in the writing run or in the
-  // reading one, would then lose the history without a word. The first free ID does not.
+  // A restart file finds the history by this ID. LAMMPS's styles number theirs by the pair styles
+  // that a process ever had, so that an additional pair_style in the writing or the reading run
+  // would lose the history without a warning. The first free ID avoids that.
   int n = 0;
   do {
     history_id = "NEIGH_HISTORY_EEPA" + std::to_string(n++);
   } while (modify->get_fix_by_id(history_id) ||
            modify->get_fix_by_id(ContactHistory::place_holder(history_id)));
-  // takes the place that the history fix will have among the fixes
+  // reserves the position of the history fix in the list of fixes
   modify->add_fix(ContactHistory::place_holder(history_id) + " all DUMMY");
 }
 
@@ -185,8 +185,8 @@ void PairGranEepa::init_style()
   keep_ledger = EnergyLedger::wanted(modify);
   ledger_starts = keep_ledger && (ledger_starts || !kept);
 
-  // one law of rolling and of twisting serves all pairs of types: those without take part with a
-  // bound of 0
+  // all pairs of types use the same model of rolling and of twisting; pairs without it have a bound
+  // of 0
   rolling = eepa::RollingModel::none;
   twisting = eepa::TwistingModel::none;
   for (int i = 1; i <= atom->ntypes; i++) {
@@ -205,12 +205,12 @@ void PairGranEepa::init_style()
     }
   }
   init_history();
-  // an opening that falls on a rebuild must be booked, so such a contact outlives its end
+  // the ledger must book contacts that open at a rebuild, so these are kept until the force call
   fix_history->keep_parting_contacts(keep_ledger);
   warn_of_fixes();
   engine = make_contact_engine(style.settings, rolling, twisting);
-  coefficient_classes.clear();    // init_one() is still to come
-  // last: after an error LAMMPS would keep the request of a pair style that may be gone
+  coefficient_classes.clear();    // made again after init_one()
+  // the request comes last: after an error LAMMPS would keep that of a pair style that may be gone
   neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
 }
 
@@ -240,7 +240,7 @@ void PairGranEepa::init_history()
                style_name);
   }
   fix_history->end_interrupted_run();
-  // LAMMPS would hand a history to whoever has the ID
+  // LAMMPS would give a history to any particle that has the ID now
   if (!fix_history->ids_are_kept())
     error->all(
         FLERR,
@@ -348,7 +348,7 @@ void PairGranEepa::read_restart(FILE *fp)
       read_numbers(numbers.data(), numbers.size(), fp);
       try {
         const eepa::Parameters read = eepa::unpack_parameters(numbers, format);
-        eepa::Words warnings;    // were given when the coefficients were typed
+        eepa::Words warnings;    // printed already when the coefficients were typed
         eepa::require_valid(read, style.settings, warnings);
         parameters[pair_index(i, j)] = parameters[pair_index(j, i)] = read;
       } catch (const std::invalid_argument &e) {
@@ -362,7 +362,7 @@ void PairGranEepa::read_restart(FILE *fp)
 void PairGranEepa::write_restart_settings(FILE *fp)
 {
   write_numbers(eepa::pack(style), fp);
-  // as with write_restart noinit; LAMMPS calls this on rank 0 only
+  // there is none with write_restart noinit; LAMMPS calls this function on rank 0 only
   if (!fix_history)
     error->warning(FLERR,
                    "{}: the restart file has no histories of contacts, because there was neither a "
@@ -389,7 +389,7 @@ int PairGranEepa::read_style(FILE *fp)
   return format;
 }
 
-/// From the file of rank 0, for all ranks.
+/// Reads numbers from the file of rank 0 and sends them to all ranks.
 void PairGranEepa::read_numbers(double *numbers, std::size_t count, FILE *fp)
 {
   if (comm->me == 0) utils::sfread(FLERR, numbers, sizeof(double), count, fp, nullptr, error);

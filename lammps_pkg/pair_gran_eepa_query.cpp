@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What PairGranEepa tells of its contacts: single(), the census.
+// Queries of PairGranEepa's contacts: single(), the census.
 
 #include "pair_gran_eepa.h"
 
@@ -23,7 +23,7 @@ using eepa::Vec3;
 int PairGranEepa::find_history(int i, int j, const double *&values, double &sign) const
 {
   const int size = history_size();
-  // the pair stands with either partner; seen from the other one the springs change sign
+  // the list has the pair with one of its particles; for the other one the springs change sign
   for (int turn = 0; turn < 2; turn++) {
     const int owner = turn ? j : i;
     const int partner = turn ? i : j;
@@ -69,21 +69,21 @@ double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, doub
   const ContactReport report = engine->report(coefficients[pair_index(itype, jtype)], contact,
                                               status ? history : nullptr, sign);
   tell(contact, report);
-  // what the last step found, where it saw this contact: a second evaluation can not tell the
-  // end of the adhesive branch from the start of the line that leaves it
+  // branch and slip are those of the last step, if it saw this contact: a second evaluation can not
+  // distinguish the end of the adhesive branch from the start of the reloading line
   if (status > eepa::ContactStatus::touching) {
     svector[BRANCH] = static_cast<int>(eepa::ContactStatus::branch(status));
     svector[SLIP] = eepa::ContactStatus::slides(status) ? 1.0 : 0.0;
   }
-  // as special_bonds weakens a contact, all its forces, torques and energies
+  // special_bonds weakens all forces, torques and energies of a contact
   for (int k = 0; k < N_SINGLE; k++)
     if (k < BRANCH || k > SLIP) svector[k] *= factor_lj;
   fforce = report.response.normal_force * (factor_lj / std::sqrt(rsq));
   return factor_lj * report.energy.total();
 }
 
-/// A particle with its mass alone, while compute() gets the masses of all: compute pair/local asks
-/// for every pair.
+/// One particle with its mass. compute() gets the masses of all particles at once, which would be
+/// too slow here: compute pair/local asks for every pair.
 eepa::Body<double> PairGranEepa::lone_body(int i) const
 {
   return {Vec3(atom->x[i]), Vec3(atom->v[i]), Vec3(atom->omega[i]), atom->radius[i],
@@ -114,7 +114,7 @@ void PairGranEepa::tell(const eepa::Contact &contact, const ContactReport &repor
 
 ContactCensus PairGranEepa::census(int groupbit)
 {
-  // sums in one array so that one reduction serves: see the assignments below
+  // all sums in one array for a single reduction: see the assignments below
   double sum[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   double largest = 0.0;
   for (int ii = 0; list && ii < list->inum; ii++) {
