@@ -102,7 +102,7 @@ namespace {
       return words;
     }
 
-    /// Those that the law has.
+    /// The keywords that the law has.
     Words keywords() const
     {
       Words all;

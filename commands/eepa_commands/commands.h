@@ -8,23 +8,24 @@
 
 #include <string>
 
-// The one parser of everything that a pair_style, a pair_coeff and a wall have in common; what a wall
-// has besides is in wall_commands.h. It knows nothing of LAMMPS, so that it can be tested and fuzzed
-// alone.
+// The parser of everything that pair_style, pair_coeff and walls have in common; the rest of a
+// wall's command is in wall_commands.h. It does not depend on LAMMPS, so that it can be tested and
+// fuzzed alone.
 
 namespace eepa {
 
-/// "plateau or linear", of all laws that there are.
+/// The names of all laws, as in "plateau or linear".
 std::string law_names();
 
-/// What to do about a time step above the stable one.
+/// Response to a time step above the stable one.
 enum class TimeStepCheck { off, warn, error };
 
 /// pair_style gran/eepa ...
 struct StyleArguments {
   LawSettings settings;
   TimeStepCheck time_step_check = TimeStepCheck::warn;
-  /// that particles may grow to in a run [length]; 0 where they do not grow. Walls need none.
+  /// largest diameter that particles grow to in a run [length]; 0 where they do not grow. Walls
+  /// need none.
   double largest_diameter = 0.0;
 };
 
@@ -36,19 +37,19 @@ struct StyleArguments {
 std::size_t parse_style(const Words &words, std::size_t first, const std::string &stop,
                         StyleArguments &style);
 
-/// Reads `k1 k2 k_adh f0 mu keyword values ...` from words[first] on, with the keywords of the table of
-/// parameters, and validates it.
-/// \param warnings  gets what deserves a line in the log
+/// Reads `k1 k2 k_adh f0 mu keyword values ...` from words[first] on, with the keywords of the
+/// table of parameters, and validates it.
+/// \param warnings  receives warnings for the log
 /// \return index of the first word not read
 /// \throw std::invalid_argument naming argument, value and what is allowed
 std::size_t parse_parameters(const Words &words, std::size_t first, const std::string &stop,
                              const LawSettings &settings, Parameters &parameters, Words &warnings);
 
-/// Validates parameters once more, after settings changed or types were mixed.
+/// Validates parameters again, after settings changed or types were mixed.
 /// \throw std::invalid_argument with every message
 void require_valid(const Parameters &parameters, const LawSettings &settings, Words &warnings);
 
-/// The words that parse_parameters() reads back to the same parameters, to the last bit.
+/// Words from which parse_parameters() reads the same parameters, to the last bit.
 std::string to_words(const Parameters &parameters);
 
 }    // namespace eepa

@@ -12,7 +12,7 @@ namespace {
 
   double mean_of(Mean mean, double a, double b)
   {
-    // no rounding: types that were given the same stay the same
+    // equal values are kept, without rounding
     if (a == b) return a;
     if (mean == Mean::harmonic) return (a > 0.0 && b > 0.0) ? 2.0 / (1.0 / a + 1.0 / b) : 0.0;
     if (mean == Mean::geometric_product) return std::sqrt(a * b);
@@ -20,7 +20,7 @@ namespace {
     return a < 0.0 && b < 0.0 ? -magnitude : magnitude;
   }
 
-  /// The alternative of the contact, or -1.
+  /// The alternative of the mixed contact, or -1 where the types can not be mixed.
   int merged(Merge merge, int a, int b)
   {
     if (a == b) return a;

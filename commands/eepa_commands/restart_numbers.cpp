@@ -9,7 +9,7 @@ namespace eepa {
 
 namespace {
 
-  /// The value of an enumeration that a restart file stored; a cast of any other number is undefined.
+  /// The value of an enumeration that a restart file stored; casting any other number is undefined.
   int enumerator(double stored, int count, const std::string &what)
   {
     for (int k = 0; k < count; k++)

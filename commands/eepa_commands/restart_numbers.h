@@ -8,8 +8,8 @@
 #include <array>
 #include <vector>
 
-// Style and parameters as plain numbers of restart files. The first number of a style is the format,
-// which says which parameters are there; see parameter_table.h.
+// Style and parameters as plain numbers for restart files. The first number of a style is the
+// format, which determines the parameters in the file; see parameter_table.h.
 
 namespace eepa {
 
@@ -19,19 +19,20 @@ constexpr std::size_t packed_parameters_size = parameter_count;
 std::array<double, packed_style_size> pack(const StyleArguments &style);
 std::array<double, packed_parameters_size> pack(const Parameters &parameters);
 
-/// \param[out] format  of the file, which unpack_parameters() has to know
-/// \throw std::invalid_argument when this version can not read the format, or the numbers are damaged
+/// \param[out] format  format of the file, an argument of unpack_parameters()
+/// \throw std::invalid_argument when this version can not read the format, or the numbers are
+///        damaged
 StyleArguments unpack_style(const std::array<double, packed_style_size> &numbers, int &format);
 
-/// How many numbers a pair of types has in files of a format.
+/// Number of values of a pair of types in files of a format.
 std::size_t packed_size(int format);
 
 /// \param numbers  packed_size(format) of them
 /// \throw std::invalid_argument when they are damaged
 Parameters unpack_parameters(const std::vector<double> &numbers, int format);
 
-/// A law that a restart file stored.
-/// \throw std::invalid_argument when there is none of that number
+/// The law that a restart file stored as a number.
+/// \throw std::invalid_argument when no law has that number
 Law unpack_law(double stored);
 
 }    // namespace eepa

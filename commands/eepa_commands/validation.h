@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-// What the kernel asks of its input before a run.
+// Checks of the kernel's input before a run.
 
 namespace eepa {
 

@@ -108,7 +108,7 @@ namespace {
              "normal");
   }
 
-  /// A limit of travel; NULL leaves `open` as it is.
+  /// A limit of travel; NULL means `open`.
   double read_limit(Reader &reader, const std::string &name, double open)
   {
     const std::string &word = reader.word(name);
@@ -138,7 +138,7 @@ namespace {
   }
 
   /// `F|pressure p area A mass M [damping c] [limits lo hi]`; F, p and A may be v_name.
-  /// \param ends  keywords that come after them
+  /// \param ends  keywords that may follow
   LoadArguments read_load(Reader &reader, const Words &ends)
   {
     LoadArguments load;

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-// Words of a command, and what can be read from them.
+// Words of a command, and functions that read numbers and keywords from them.
 
 namespace eepa {
 
 using Words = std::vector<std::string>;
 
-/// A number, or a variable that gives it.
+/// A number, or the variable that gives it.
 struct Quantity {
   double value = 0.0;
   std::string variable;    ///< name without v_; empty where a number was given
@@ -21,7 +21,7 @@ struct Quantity {
 /// \throw std::invalid_argument always
 [[noreturn]] void refuse(const std::string &message);
 
-/// The message of a number that is not allowed, as all of this package have it.
+/// Throws this package's message for a number that is not allowed.
 /// \throw std::invalid_argument always
 [[noreturn]] void refuse_value(const std::string &name, double value, const std::string &allowed);
 
@@ -36,39 +36,39 @@ Quantity parse_quantity(const std::string &name, const std::string &word);
 /// "a", "a or b", "a, b or c"
 std::string listed(const Words &words, const std::string &conjunction = "or");
 
-/// One after the other.
+/// Joins words, with `between` between them.
 std::string joined(const Words &words, const std::string &between = "; ");
 
 bool contains(const Words &words, const std::string &word);
 
-/// A number as messages have it, 6 digits.
+/// A number for messages, with 6 digits.
 std::string brief(double value);
 
-/// A number that reads back to the same bits.
+/// A number with digits enough to read the same bits back.
 std::string exact(double value);
 
 /// Walks over the words of one command and names what is missing. Every function that reads throws
 /// std::invalid_argument.
 class Reader {
  public:
-  /// \param stop  a word that ends them, or "" when they go to the end
+  /// \param stop  a word that ends the command, or "" for the end of the words
   Reader(const Words &words, std::size_t first, std::string stop = "");
 
   bool done() const;
   /// Index of the next word.
   std::size_t position() const { return next_; }
-  /// The next word, not read; there must be one.
+  /// The next word, without reading it; there must be one.
   const std::string &peek() const { return words_[next_]; }
 
   /// Demands `count` more words.
   /// \param what  keyword and names of its values
   void require(std::size_t count, const std::string &what) const;
   const std::string &word(const std::string &name);
-  /// A keyword, each at most once.
+  /// Reads a keyword, each at most once.
   std::string keyword();
   double number(const std::string &name) { return parse_number(name, word(name)); }
   Quantity quantity(const std::string &name) { return parse_quantity(name, word(name)); }
-  /// x, y or z as 0, 1 or 2.
+  /// Reads x, y or z as 0, 1 or 2.
   int dimension(const std::string &name);
 
  private:
