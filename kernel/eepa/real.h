@@ -61,7 +61,7 @@ EEPA_FUNCTION Vector3<Lanes> select(const Lanes::mask_type &condition, const Vec
 }
 #endif
 
-/// base^exponent, in each lane as the C library has it for a double.
+/// base^exponent; each lane gets the result of the C library for a double.
 template <class Real> EEPA_FUNCTION Real pow(const Real &base, double exponent)
 {
   if constexpr (is_lanes<Real>)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Any bytes, split at blanks, through the one parser: pair_style, pair_coeff, the whole of
-// fix wall/gran/eepa and its fix_modify.
-// libFuzzer calls this; replay.cpp does where there is none.
+// Arbitrary bytes, split at blanks, through the parser of pair_style, pair_coeff, fix
+// wall/gran/eepa and its fix_modify. Called by libFuzzer, or by replay.cpp without it.
 
 #include <eepa_commands/mixing.h>
 #include <eepa_commands/restart_numbers.h>
@@ -47,7 +46,7 @@ bool same_bits(const std::array<double, N> &a, const std::array<double, N> &b)
   return std::memcmp(a.data(), b.data(), sizeof(a)) == 0;
 }
 
-/// Whether `parse` succeeded; a refusal must be an invalid_argument that says something.
+/// Whether `parse` succeeded; a refusal must be an invalid_argument with a message.
 template <class Parse> bool accepted(Parse parse)
 {
   try {
@@ -59,7 +58,7 @@ template <class Parse> bool accepted(Parse parse)
   }
 }
 
-/// What every set of parameters fulfils that a command was read to.
+/// Checks what must hold for every set of parameters that a command was read to.
 void check_parameters(const eepa::Parameters &parameters, const eepa::LawSettings &settings)
 {
   REQUIRE(eepa::validate(parameters, settings).errors.empty());
@@ -83,7 +82,7 @@ void check_parameters(const eepa::Parameters &parameters, const eepa::LawSetting
   REQUIRE(same_bits(packed, eepa::pack(again)));
 }
 
-/// As pair_coeff has them.
+/// Reads words like those of pair_coeff.
 void parse_parameters(const Words &words, std::size_t first, const std::string &stop,
                       const eepa::LawSettings &settings)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Stands in for libFuzzer: replays a corpus, each input also cut, spliced and with bytes changed,
-// then random bytes. The same inputs in every run.
+// Replaces libFuzzer: replays a corpus, each input also truncated, spliced and with bytes changed,
+// and then random bytes. The inputs are the same in every run.
 //
 //   replay_NAME COUNT CORPUS_FOLDER
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What counts as a number.
+// Words that the parser accepts as numbers.
 
 #include <eepa_commands/commands.h>
 
