@@ -21,7 +21,7 @@
 
 #ifdef EEPA_HAS_LANES
 
-#include <Eigen/Core>
+#include "eigen.h"
 
 namespace eepa {
 /// As many doubles as a register holds, 4 at most: 2 with SSE2, 4 with AVX, AVX2 and AVX-512. For

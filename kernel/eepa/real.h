@@ -8,10 +8,9 @@
 // contacts need is skipped with any(). A lane performs the operations of a double in the same
 // order, so it gets the same bits.
 
+#include "eigen.h"
 #include "lanes.h"
 #include "macros.h"
-
-#include <Eigen/Core>
 
 #include <cmath>
 #include <type_traits>

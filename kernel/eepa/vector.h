@@ -5,9 +5,6 @@
 #include "macros.h"
 #include "real.h"
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-
 #include <cmath>
 
 namespace eepa {
