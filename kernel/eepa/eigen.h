@@ -2,7 +2,7 @@
 #ifndef EEPA_EIGEN_H
 #define EEPA_EIGEN_H
 
-// Eigen, without nvcc's warning of functions that Eigen marks for the device and then defaults.
+// Eigen, without nvcc's warning of functions that Eigen both marks for the device and defaults.
 
 #ifdef __CUDACC__
 #pragma nv_diagnostic push

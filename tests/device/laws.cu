@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Every law on a GPU: forces, states, energies and losses of contacts over some steps, beside those
-// that this machine's processor finds. That it compiles without a warning is a test of its own, which
-// needs no GPU. Prints one line a law and fails where the two differ by more than rounding.
+// Every law on a GPU: forces, states, energies and losses of contacts over some steps, compared
+// with those of the host's processor. Compiling without a warning is a separate test, which needs
+// no GPU. Prints one line a law and fails where the two differ by more than rounding.
 //
 //   nvcc -std=c++17 -O2 -fmad=false -I kernel -I <Eigen> tests/device/laws.cu -o laws && ./laws
 
@@ -25,7 +25,7 @@ using namespace eepa;
 constexpr int contacts = 4096, steps = 40;
 constexpr double time_step = 1e-6;
 
-/// What is compared of a contact, as plain numbers.
+/// The compared results of a contact, as plain numbers.
 enum Number {
   FORCE = 0,
   TORQUE_I = 3,
@@ -42,14 +42,14 @@ enum Number {
   N_NUMBERS
 };
 
-/// A pair of particles that is driven along a given path, or a particle and a wall.
+/// A pair of particles, or a particle and a wall, with prescribed motion.
 struct Pair {
   Body<double> i, j;
   Vec3 acceleration;
   bool wall;
 };
 
-/// History rows of every kind: as LAMMPS has them, of stride `contacts`, and in quads.
+/// History rows of every kind: consecutive values as in LAMMPS, of stride `contacts`, and in quads.
 struct Histories {
   double *rows, *strided;
   Quad *quads;
@@ -70,8 +70,8 @@ template <class ContactLaw> EEPA_FUNCTION Contact contact_at(const Pair &pair, i
   return contact_at_wall(i, wall, time_step);
 }
 
-/// One step of a contact, as a driver makes it; its history is read from one kind of row and
-/// written to all.
+/// One step of a contact, as in a driver. Its history is read from one kind of row and written to
+/// all.
 template <class ContactLaw>
 EEPA_FUNCTION void live_one_step(const Coefficients &c, const Pair &pair, int step, int index,
                                  const Histories &all, double *numbers)
@@ -133,7 +133,7 @@ void require(cudaError_t status)
   std::exit(1);
 }
 
-/// A zeroed array that the GPU has, too.
+/// A zeroed array that the GPU can access, too.
 template <class T> class OnDevice {
  public:
   explicit OnDevice(std::size_t count) : size_(count * sizeof(T))
@@ -186,7 +186,7 @@ std::vector<Pair> make_pairs()
     const double distance = pair.i.radius + (pair.wall ? 0.0 : pair.j.radius) - depth;
     pair.i.x = distance * normal;
     if (!pair.wall) pair.i.x += pair.j.x;
-    // in, out again and through the end of the contact
+    // the particles approach and separate again, until the contact opens
     pair.i.v -= 0.6 * normal;
     pair.acceleration = 4e4 * normal;
   }

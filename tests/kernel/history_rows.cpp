@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// A history is the same one in every kind of row that a driver may keep it in.
+// A history has the same values in every kind of row that a driver may use.
 
 #include <eepa/history.h>
 
@@ -58,7 +58,7 @@ TYPED_TEST(HistoryRows, EveryKindOfRowGivesBackWhatItGot)
   store_history<TypeParam>(history, quad);
   expect_same(load_history<TypeParam>(QuadRow<const Quad>{quad.first, quad.stride}), history);
 
-  // each value in the place that HistoryIndex names, and no neighbour's
+  // each value is at its HistoryIndex, and values of other rows are unchanged
   for (int k = 0; k < size; k++) {
     EXPECT_EQ(strided[k], raw[k]) << k;
     EXPECT_EQ(quad[k], raw[k]) << k;
