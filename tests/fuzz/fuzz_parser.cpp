@@ -119,7 +119,11 @@ void check_shape(const WallShape &shape)
 
 void check_motion(const MotionArguments &motion, const WallShape &shape)
 {
-  for (const auto &component : motion.velocity) REQUIRE(is_quantity(component));
+  for (const auto &component : motion.velocity) {
+    REQUIRE(is_quantity(component));
+    if (motion.drive != WallDrive::velocity)
+      REQUIRE(component.value == 0.0 && component.variable.empty());
+  }
   REQUIRE(is_quantity(motion.shear));
   REQUIRE(motion.wiggle_axis >= 0 && motion.wiggle_axis < 3);
   REQUIRE(motion.shear_axis >= 0 && motion.shear_axis < 3);
