@@ -11,42 +11,42 @@
 
 namespace LAMMPS_NS {
 
-/// A pair that touches, as the search leaves it: small, for most candidates are overwritten by
-/// the next one.
+/// A pair that touches, as the search writes it. It is small, because most candidates are
+/// overwritten by the next one.
 struct TouchingPair {
   int i;
-  int place;    ///< of j among the neighbours of i
+  int place;    ///< slot of j among the neighbours of i
 };
 
-/// The same with what the law needs looked up.
+/// A pair that touches, with the data of the contact looked up.
 struct FoundContact {
   int i, j;
   int *status;        ///< see eepa::ContactStatus
   double *history;    ///< see eepa::HistoryIndex
 };
 
-/// What a contact does to a particle that another slice writes.
+/// Force of a contact on a particle that another slice writes.
 struct DeferredForce {
   int atom;
   eepa::Vec3 force, torque;    ///< on j
 };
 
-/// What a contact dissipates at a particle that another slice writes.
+/// Loss of a contact at a particle that another slice writes.
 struct DeferredLoss {
   int atom;
   eepa::Dissipation of_contact;
   double share;
 };
 
-/// A part of the neighbour list and of the atoms, worked through by one thread; all of it where
-/// there are no threads.
+/// A part of the neighbour list and of the atoms, processed by one thread; the whole without
+/// threads.
 struct ContactSlice {
-  /// Contacts are found, fetched into the cache and evaluated in blocks that stay there.
+  /// Contacts are found, fetched and evaluated in blocks small enough to stay in the cache.
   static constexpr int block = 64;
 
-  int begin = 0, end = 0;                // places in the neighbour list
-  int first_atom = 0, atom_count = 0;    // run of atoms whose forces this slice alone writes
-  int deferrable = 0;                    // atoms below this get the forces that others defer
+  int begin = 0, end = 0;                // slots in the neighbour list
+  int first_atom = 0, atom_count = 0;    // range of atoms whose forces only this slice writes
+  int deferrable = 0;                    // forces are deferred for atoms below this index
   std::vector<TouchingPair> touching;
   std::vector<FoundContact> contacts, sorted;    // of a block; sorted by coefficients
   std::vector<int> class_begin;                  // of each class of coefficients among the sorted
@@ -66,12 +66,13 @@ struct ContactSlice {
   {
     return static_cast<unsigned>(atom - first_atom) < static_cast<unsigned>(atom_count);
   }
-  /// Whether another slice writes it; else it is a ghost whose owner computes this contact too.
+  /// Whether another slice writes the atom; else it is a ghost whose owner computes this contact,
+  /// too.
   bool defers(int atom) const { return atom < deferrable; }
 
-  /// Books what the contact of i and j dissipated.
-  /// \param factor  that special_bonds weakens it by
-  /// \param share  of it that is this rank's to sum up
+  /// Books the loss of the contact of i and j.
+  /// \param factor  factor of special_bonds
+  /// \param share  part of the loss that this rank sums
   void book(int i, int j, const eepa::Dissipation &lost, double factor, double share)
   {
     ledger.dissipated.add(lost, factor * share);
@@ -83,7 +84,7 @@ struct ContactSlice {
       deferred_losses.push_back({j, lost, 0.5 * factor});
   }
 
-  /// See eepa::too_deep(): the run is going to stop.
+  /// Records a contact for which eepa::too_deep() holds: the run will stop.
   void note_too_deep(int i, int j)
   {
     deep_i = i;

@@ -271,7 +271,7 @@ double PairGranEepa::init_one(int i, int j)
   coefficients[pair_index(i, j)] = coefficients[pair_index(j, i)] =
       eepa::resolve(own, style.settings);
 
-  // frozen particles do not meet each other
+  // no contacts between frozen particles
   return std::max({max_radius_dynamic[i] + max_radius_dynamic[j],
                    max_radius_frozen[i] + max_radius_dynamic[j],
                    max_radius_dynamic[i] + max_radius_frozen[j]});

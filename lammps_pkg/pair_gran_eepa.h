@@ -26,16 +26,16 @@ PairStyle(gran/eepa,PairGranEepa);
 
 namespace LAMMPS_NS {
 
-/// What compute gran/eepa/contacts counts, summed over ranks.
+/// Results of compute gran/eepa/contacts, summed over ranks.
 struct ContactCensus {
   double contacts = 0.0, loading = 0.0, unloading = 0.0, adhesive = 0.0, sliding = 0.0;
-  double ends = 0.0;    ///< contacts of each particle of the group, summed
+  double ends = 0.0;    ///< sum over the particles of the group of their numbers of contacts
   double max_overlap_ratio = 0.0;
   double mean_overlap_ratio = 0.0;
 };
 
-/// pair_style gran/eepa: gathers what a contact needs, calls the kernel's law, stores its
-/// state with the neighbour-history fix and scatters the forces. No physics here.
+/// pair_style gran/eepa: finds contacts, gathers their bodies, calls the kernel's law, stores
+/// states in the neighbour-history fix and scatters the forces. It contains no physics.
 class PairGranEepa : public Pair {
  public:
   PairGranEepa(class LAMMPS *);
@@ -61,7 +61,7 @@ class PairGranEepa : public Pair {
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
   double memory_usage() override;
-  // virtual up to LAMMPS 2025 and gone after it, so without `override`
+  // virtual up to LAMMPS 2025 and removed after it, so without `override`
 #if defined(__clang__)
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Winconsistent-missing-override"
@@ -74,8 +74,8 @@ class PairGranEepa : public Pair {
 
   /// Counts the contacts with a partner in the group. Collective.
   ContactCensus census(int groupbit);
-  /// The largest stable time step over all contacts that could form, those of particles that are
-  /// still to come with them. Collective.
+  /// The largest stable time step over all contacts that could form, those of announced particles
+  /// included. Collective.
   TimeStepBound largest_time_step(const std::vector<AnnouncedParticles> &announced = {});
   /// This rank's energies; all zero unless a compute gran/eepa/energy existed at the last init.
   const EnergyLedger &energy_ledger() const
@@ -89,8 +89,8 @@ class PairGranEepa : public Pair {
   }
 
  protected:
-  /// The quantities of single() beyond the force, in the order of p1, p2, ... LAMMPS has the
-  /// tangential force first in all its granular styles, and compute fabric takes the fourth.
+  /// Quantities of single() beside the force, in the order of p1, p2, ... The tangential force
+  /// comes first as in all of LAMMPS's granular styles; compute fabric reads p4.
   enum SingleQuantity {
     TANGENTIAL_X,    ///< tangential force on i
     TANGENTIAL_Y,
@@ -102,7 +102,7 @@ class PairGranEepa : public Pair {
     PLASTIC_OVERLAP,    ///< delta_p
     SLIP,               ///< 1 at the friction bound
     HYSTERETIC,         ///< f_hys
-    FRICTION_BOUND,     ///< what TANGENTIAL can not exceed
+    FRICTION_BOUND,     ///< largest value of TANGENTIAL
     ENERGY_NORMAL,      ///< recoverable energies
     ENERGY_TANGENTIAL,
     ENERGY_ROLLING,
@@ -117,20 +117,20 @@ class PairGranEepa : public Pair {
   eepa::StyleArguments style;
   std::vector<eepa::Parameters> parameters;                    // as given or mixed, (ntypes+1)^2
   std::vector<eepa::Coefficients> coefficients;                // resolved, (ntypes+1)^2
-  std::vector<eepa::Coefficients> coefficient_classes;         // the different ones among them
+  std::vector<eepa::Coefficients> coefficient_classes;         // different ones among them
   std::vector<int> class_of_pair;                              // (ntypes+1)^2
-  eepa::RollingModel rolling = eepa::RollingModel::none;       // of all types together
+  eepa::RollingModel rolling = eepa::RollingModel::none;       // the model of all pairs of types
   eepa::TwistingModel twisting = eepa::TwistingModel::none;    // likewise
   ContactMasses masses;
   double dt = 0.0;
 
   class ContactHistory *fix_history = nullptr;
-  std::string history_id;    // of fix_history, or of what its place holder keeps the place of
+  std::string history_id;    // ID of fix_history, also before it replaces its place holder
   std::vector<double> max_radius_dynamic, max_radius_frozen;    // by type
   bool plateau_warned = false, narrow_box_warned = false;
   bool time_step_warned = false;    // in this run
-  bool particles_come = false;      // by a fix that inserts them
-  bigint checked_particles = 0;     // how many there were when the time step was checked
+  bool particles_come = false;      // whether a fix inserts particles
+  bigint checked_particles = 0;     // number of particles when the time step was checked
   bool rotation_warned = false, heat_warned = false, rerun_warned = false;
 
   EnergyLedger ledger;
@@ -145,7 +145,7 @@ class PairGranEepa : public Pair {
   ParticleArrays particles;
   ForceArrays forces;
   StepRequest request;
-  bool in_lanes = false;    // only forces are asked for
+  bool in_lanes = false;    // only forces are requested
   std::vector<ContactSlice> slices;
 
   int pair_index(int itype, int jtype) const
@@ -175,7 +175,7 @@ class PairGranEepa : public Pair {
 
   ParticleArrays particle_arrays();
   bool bonds_weaken_contacts() const;
-  /// Has every slice of the neighbour list worked through.
+  /// Evaluates the contacts of all slices of the neighbour list.
   virtual void work_through_list();
   void work_through(ContactSlice &);
   void open_contact(ContactSlice &, int i, int place);

@@ -99,8 +99,8 @@ void PairGranEepa::work_through_list()
 
 /* ---------------------------------------------------------------------- fetching ahead */
 
-// These are inlined by force: GCC takes a function that does nothing else for one without effect,
-// and drops its calls.
+// These functions must be inlined: GCC takes a function that only prefetches for one without
+// effect, and drops calls of it.
 
 namespace {
 EEPA_FUNCTION void prefetch([[maybe_unused]] const void *read)
@@ -117,7 +117,8 @@ EEPA_FUNCTION void prefetch_written([[maybe_unused]] const void *written)
 #endif
 }
 
-/// What the evaluation of a contact reads and writes of its partner j. Particle i comes in turn.
+/// Prefetches the data of partner j that the evaluation of a contact reads and writes. Data of i
+/// are in the cache, because particles are taken in turn.
 EEPA_FUNCTION void prefetch_partner(std::ptrdiff_t j, const ParticleArrays &p,
                                     const ForceArrays &forces)
 {
@@ -127,7 +128,7 @@ EEPA_FUNCTION void prefetch_partner(std::ptrdiff_t j, const ParticleArrays &p,
   prefetch_written(forces.f + 3 * j);
   prefetch_written(forces.torque + 3 * j);
 }
-/// Where the rows of the neighbour list and of the histories begin.
+/// Pointers to the rows of the neighbour list and of the histories.
 struct NeighborRows {
   const int *ilist, *numneigh;
   int *const *neighbors, *const *status;
@@ -139,14 +140,14 @@ NeighborRows rows_of(const NeighList &list, const ContactHistory &contacts)
   return {list.ilist, list.numneigh, list.firstneigh, contacts.firstflag, contacts.firstvalue};
 }
 
-/// What the search is going to read, in the order in which it needs that, and of the last
-/// neighbour of a particle also what a contact with it takes: a neighbour list goes through the
-/// box in layers, and that is where a particle comes into sight for the first time.
+/// Prefetches what the search will read, in that order, and all data of a contact with a particle's
+/// last neighbour: a neighbour list goes through the box in layers, so that a particle occurs for
+/// the first time as a last neighbour.
 EEPA_FUNCTION void prefetch_neighbors(const NeighborRows &rows, int place, int end,
                                       const ParticleArrays &p, const ForceArrays &forces)
 {
-  constexpr int soon = 8, later = 16, much_later = 32;    // particles on
-  // where the rows begin is known from arrays that are not in the cache either
+  constexpr int soon = 8, later = 16, much_later = 32;    // particles ahead
+  // the pointers to the rows are not in the cache either
   constexpr int pointers_in_line = 8;
   if (place % pointers_in_line == 0 && place + 2 * much_later < end) {
     prefetch(rows.ilist + place + 2 * much_later);
@@ -188,7 +189,7 @@ void PairGranEepa::work_through(ContactSlice &slice)
   const NeighborRows rows = rows_of(*list, *fix_history);
   const ParticleArrays p = particles;
   const ForceArrays f = forces;
-  // about 300 bytes a particle: fewer of them come from the cache without being asked for
+  // about 300 bytes a particle: data of fewer particles are in the cache without prefetches
   constexpr int cached_particles = 8192;
   const bool far_from_cache = slice.end - slice.begin > cached_particles;
 
@@ -203,7 +204,7 @@ void PairGranEepa::work_through(ContactSlice &slice)
     const double radius_i = p.radius[i];
     if (far_from_cache) prefetch_neighbors(rows, ii, slice.end, p, f);
 
-    // most neighbours do not touch: they cost one distance, and their place is overwritten
+    // most neighbours do not touch: they cost one distance, and the next one overwrites their entry
     if (static_cast<std::ptrdiff_t>(slice.touching.size()) < count + jnum)
       slice.touching.resize(count + jnum + ContactSlice::block);
     TouchingPair *const touching = slice.touching.data(), *next = touching + count;
@@ -216,12 +217,12 @@ void PairGranEepa::work_through(ContactSlice &slice)
       const std::size_t touches = !apart;
       *next = {i, jj};
       next += touches;
-      // a status other than 0, and not touching: no status is as large as 2^30
+      // true for a status other than 0 without touch: every status is less than 2^30
       if (status[jj] > static_cast<int>(touches << 30)) open_contact(slice, i, jj);
     }
     count = next - touching;
     if (count >= ContactSlice::block) {
-      // what would not fill the lanes waits for the next block
+      // contacts that would not fill the lanes wait for the next block
       const std::ptrdiff_t whole = count - count % side_by_side;
       evaluate_block(slice, static_cast<int>(whole));
       std::copy(touching + whole, next, touching);
@@ -237,7 +238,7 @@ void PairGranEepa::open_contact(ContactSlice &slice, int i, int place)
   double *values = fix_history->firstvalue[i] + static_cast<std::ptrdiff_t>(size) * place;
   if (request.wants_losses) book_opening(slice, i, list->firstneigh[i][place], values);
   fix_history->firstflag[i][place] = eepa::ContactStatus::none;
-  // a pair that does not touch has no history, so that a new contact need not ask
+  // histories of pairs that do not touch are always 0, so that a new contact needs no test
   std::fill_n(values, size, 0.0);
 }
 
@@ -339,7 +340,7 @@ void PairGranEepa::evaluate_scalar(ContactSlice &slice, const FoundContact &foun
 
 double PairGranEepa::share_of_pair(int j) const
 {
-  // without newton both ranks hold a pair that crosses them
+  // with newton off both ranks have a pair that crosses their boundary
   return (force->newton_pair || j < atom->nlocal) ? 1.0 : 0.5;
 }
 

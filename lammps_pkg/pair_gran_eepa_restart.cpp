@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// PairGranEepa and files: restart and data files.
+// Restart and data files of PairGranEepa.
 
 #include "pair_gran_eepa.h"
 
