@@ -10,45 +10,45 @@
 #include <type_traits>
 #include <variant>
 
-// The one list of laws and the one list of what a user gives for a pair of types. The parser,
-// validation, mixing, the words of data files, the numbers of restart files, the random generators of
-// the tests and the tables in lammps_pkg/doc/pair_gran_eepa.rst all go over it.
+// The list of laws and the list of the parameters that a user gives for a pair of types. The
+// parser, validation, mixing, the words of data files, the numbers of restart files, the random
+// generators of the tests and the tables in lammps_pkg/doc/pair_gran_eepa.rst use these lists.
 //
-// A new parameter is a member of eepa::Parameters (its initializer is the default) and one entry here,
-// anywhere in the table, with .since(format): the number of the first restart format that has it, one
-// more than restart_format is now. Files of formats before it are still read, and leave it at its
-// default. Then it needs its use in the kernel and its sentence in the documentation, whose tables
-// `EEPA_WRITE_DOCUMENTATION=1 build/test_parser --gtest_filter='Documentation*'` writes.
+// A new parameter is a member of eepa::Parameters (its initializer is the default) and one entry
+// here, anywhere in the table, with .since(format), the first restart format that has it: the
+// present restart_format plus 1. Files of older formats are still read and leave the parameter at
+// its default. Then it needs its use in the kernel and its sentence in the documentation, whose
+// tables `EEPA_WRITE_DOCUMENTATION=1 build/test_parser --gtest_filter='Documentation*'` writes.
 //
 // An entry is one of two:
 //
-//   Number   a double. It is typed in one of three ways: right after `pair_coeff I J`, in the order of
-//            the table (that is what it does unless told otherwise); after a keyword of its own,
-//            .with_keyword("depth"); or as a value of a Choice, which then names its member. One that
-//            only one law has says so, .only_with(Law::x): there it must be given, with others it can
-//            not be. Its default must lie outside of its range, so that "not given" can be told.
+//   Number   a double. It is typed in one of three ways: right after `pair_coeff I J`, in the
+//            table's order (the default); after its own keyword, .with_keyword("depth"); or as a
+//            value of a Choice, which then names its member. A number of one law only has
+//            .only_with(Law::x): it must be given with that law and is an error with others. Its
+//            default must be outside its range, so that "not given" can be recognized.
 //   Choice   an enumeration or a bool. It is typed as a keyword and the word of an alternative
 //            ("rolling sds"), or as the alternatives' words alone, which then exclude each other
-//            ("restitution" or "viscous", keyword nullptr). After the word come the numbers that the
-//            alternative has, in the order in which it names them. Alternatives stand in the order of
-//            the enumerators' values.
+//            ("restitution" or "viscous", keyword nullptr). The word is followed by the numbers of
+//            the alternative, in its order. Alternatives are in the order of the enumerators'
+//            values.
 //
-// Conditions between parameters and settings (kt with an exponent, k2 >= 2 k1 of plateau) stand in
-// validation.cpp. A new law is an enumerator of eepa::Law, an entry of law_table and a line in the kernel's
-// dispatch.h.
+// Conditions between parameters and settings (kt with an exponent, k2 >= 2 k1 of plateau) are in
+// validation.cpp. A new law is an enumerator of eepa::Law, an entry of law_table and a line in the
+// kernel's dispatch.h.
 
 namespace eepa {
 
 /* ---------------------------------------------------------------------- laws */
 
-/// What the commands have to know of a law.
+/// Properties of a law that the commands need.
 struct LawEntry {
   const char *name;
   bool has_exponent;     ///< else the exponent is 1
   double least_ratio;    ///< of k2 to k1 that the law allows
 };
 
-/// In the order of the enumerators of eepa::Law.
+/// All laws, in the order of the enumerators of eepa::Law.
 constexpr LawEntry law_table[] = {
     {"plateau", false, 2.0},
     {"linear", true, 1.0},
@@ -62,13 +62,13 @@ constexpr const LawEntry &entry_of(Law law)
 
 /* ---------------------------------------------------------------------- columns of the table */
 
-/// What a number is measured in: force^a time^b length^(c + d n), n being the exponent.
+/// Dimension of a number: force^a time^b length^(c + d n), n being the exponent.
 struct Dimension {
-  const char *units;    ///< as LAMMPS's documentation writes them
+  const char *units;    ///< in the words of LAMMPS's documentation
   int force = 0, time = 0, length = 0, length_n = 0;
 
-  /// The power of s = d/d_ref with which it scales: systems are similar where lengths and times go
-  /// with s and forces with s^2 (article, section 3).
+  /// The power of s = d/d_ref with which the number scales: systems are similar where lengths and
+  /// times scale with s and forces with s^2 (article, section 3).
   constexpr double power(double n) const { return 2.0 * force + time + length + length_n * n; }
 };
 
@@ -80,12 +80,12 @@ namespace dimension {
   constexpr Dimension dashpot{"force/velocity", 1, 1, -1};
 }    // namespace dimension
 
-/// What values a number may have, besides being finite.
+/// Values that a number may have. It must also be finite.
 struct Range {
-  const char *words;    ///< of messages: "it must be ..."
+  const char *words;    ///< for messages: "it must be ..."
   double low, high;
   bool low_is_excluded = false;
-  double Parameters::*least = nullptr;    ///< another parameter that it is not less than
+  double Parameters::*least = nullptr;    ///< another parameter that is a lower bound
 
   bool holds(double value, const Parameters &p) const
   {
@@ -103,18 +103,18 @@ namespace range {
   constexpr Range from_k1{">= k1", -infinity, infinity, false, &Parameters::k1};
 }    // namespace range
 
-/// How the numbers of two types make that of their contact. Equal ones stay what they are, to the bit.
+/// Mean of the numbers of two types for their contact. Equal numbers are kept, to the bit.
 enum class Mean {
   harmonic,             ///< 2/(1/a + 1/b), 0 if either is 0: springs or dashpots in series
   geometric,            ///< sqrt(a) sqrt(b), with their sign; no product, which could underflow
   geometric_product,    ///< sqrt(a b)
 };
 
-/// How the choices of two types make that of their contact.
+/// Rule for the choices of two types at their contact.
 enum class Merge {
-  same,      ///< they can be mixed only where they are the same
-  weaker,    ///< the first alternative if either has it; else they must be the same
-  either,    ///< the second of two alternatives if either has it
+  same,      ///< types can be mixed only if their alternatives are the same
+  weaker,    ///< the first alternative if either type has it; else both must be the same
+  either,    ///< the second of two alternatives if either type has it
 };
 
 /* ---------------------------------------------------------------------- entries */
@@ -123,15 +123,15 @@ constexpr int oldest_restart_format = 2;
 
 struct Number {
   double Parameters::*member;
-  const char *name;       ///< of its place in the command
+  const char *name;       ///< name in the syntax of the command
   const char *meaning;    ///< for the documentation
   Dimension dimension;
   Range range;
   Mean mean;
-  const char *keyword = nullptr;    ///< of its own
-  std::optional<Law> law = {};      ///< the only one that has it
+  const char *keyword = nullptr;    ///< its own keyword, if it has one
+  std::optional<Law> law = {};      ///< the only law with this number; empty: all laws
   int format = oldest_restart_format;
-  double (*otherwise)(const Parameters &) = nullptr;    ///< what it is where it was not given
+  double (*otherwise)(const Parameters &) = nullptr;    ///< its value where it was not given
   const char *otherwise_words = nullptr;
 
   constexpr Number with_keyword(const char *word) const
@@ -163,7 +163,7 @@ struct Number {
 
 struct Alternative {
   static constexpr int most_numbers = 4;
-  const char *word;    ///< nullptr: what holds where nothing is typed
+  const char *word;    ///< nullptr: the alternative where nothing is typed
   double Parameters::*numbers[most_numbers] = {};
 
   constexpr int count() const
@@ -184,7 +184,7 @@ struct Choice {
   static constexpr int most_alternatives = 4;
   int (*get)(const Parameters &);
   void (*set)(Parameters &, int);
-  const char *name;       ///< in messages
+  const char *name;       ///< name in messages
   const char *keyword;    ///< nullptr: the words of the alternatives are keywords
   Merge merge;
   Alternative alternatives[most_alternatives];
@@ -226,7 +226,7 @@ using Entry = std::variant<Number, Choice>;
 
 /* ---------------------------------------------------------------------- the table */
 
-/// In the order in which restart files have them.
+/// All parameters, in the order of restart files.
 constexpr Entry parameter_table[] = {
     Number{&Parameters::k1, "k1", "stiffness of loading", dimension::stiffness_n, range::positive,
            Mean::harmonic},
@@ -277,7 +277,7 @@ constexpr int format_of(const Entry &entry)
   return number ? number->format : std::get_if<Choice>(&entry)->format;
 }
 
-/// The format of restart files that are written: the newest that any parameter asks for.
+/// The format of restart files that are written: the newest format of any parameter.
 constexpr int newest_format()
 {
   int newest = oldest_restart_format;
@@ -301,29 +301,30 @@ template <class Function> void for_each_choice(Function &&function)
 
 const Number &number_of(double Parameters::*member);
 
-/// The choice of which it is a value, or nullptr.
+/// The choice that has this number as a value, or nullptr.
 const Choice *choice_of(const Number &number);
 
-/// Whether it is typed right after the types, without a keyword.
+/// Whether the number is typed right after the types, without a keyword.
 inline bool is_positional(const Number &number)
 {
   return !number.keyword && !choice_of(number);
 }
 
-/// Whether the law reads it, and an error in it is one: values of alternatives that were not chosen
-/// are not read.
+/// Whether the law reads the number, so that it must be valid. Values of alternatives that were not
+/// chosen are not read.
 bool is_read(const Number &number, const Parameters &p);
 
-/// What it is for the law: as given, or what it is where it was not given.
+/// Value of the number for the law: as given, or its default.
 double value_of(const Number &number, const Parameters &p);
 
-/// What messages call it: "mu", "kt", "viscous Bn", "rolling sds kr", "rolling mu_r" (of several models).
+/// Name in messages: "mu", "kt", "viscous Bn", "rolling sds kr", "rolling mu_r" (of several
+/// models).
 std::string name_of(const Number &number);
 
-/// What messages call it while the words of this alternative are read: "rolling constant mu_r".
+/// Name in messages while the words of this alternative are read: "rolling constant mu_r".
 std::string name_of(const Number &number, const Choice &choice, const Alternative &alternative);
 
-/// "rolling sds", "viscous damping"
+/// Name of an alternative in messages: "rolling sds", "viscous damping"
 std::string name_of(const Choice &choice, const Alternative &alternative);
 
 }    // namespace eepa

@@ -21,7 +21,8 @@ namespace {
     return out.str();
   }
 
-  /// Demands a finite value that fulfils `allowed`; says name, value and what is allowed.
+  /// Requires a finite value that fulfils `allowed`; the message has name, value and what is
+  /// allowed.
   void demand(Lines &errors, bool allowed, const std::string &name, double value,
               const std::string &range)
   {
@@ -58,8 +59,8 @@ namespace {
     }
   }
 
-  /// k2 < 2 k1: the loading condition never holds on a virgin contact. k2 > 2 k1: the k2 line meets the
-  /// loading branch below the largest overlap.
+  /// k2 < 2 k1: the loading condition never holds on a virgin contact. k2 > 2 k1: the k2 line meets
+  /// the loading branch below the largest overlap.
   void check_plateau(Findings &found, const Parameters &p)
   {
     const double least = entry_of(Law::plateau).least_ratio * p.k1;
