@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// build/lmp: LAMMPS with the plugin beside this program loaded. LAMMPS loads it from
-// LAMMPS_PLUGIN_PATH whenever it starts anew, after the command `clear` too.
+// build/lmp: LAMMPS that loads the plugin beside this program. LAMMPS loads it from
+// LAMMPS_PLUGIN_PATH at every start, also after the command `clear`.
 
 #include "exceptions.h"
 #include "input.h"
@@ -47,7 +47,7 @@ int main(int argc, char **argv)
     lammps.input->file();
   } catch (LAMMPSAbortException &abort) {    // one rank only failed
     MPI_Abort(abort.get_universe(), 1);
-  } catch (LAMMPSException &) {    // all ranks failed alike, and said so
+  } catch (LAMMPSException &) {    // all ranks failed, and LAMMPS printed the message
     MPI_Barrier(MPI_COMM_WORLD);
     MPI_Finalize();
     return 1;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Time of the contact law alone: ContactLaw::evaluate() and what makes forces of its answer, over
-// an array of contacts, one by one and side by side in lanes. One benchmark a law, branch and
-// rolling model.
+// Time of the contact law alone: ContactLaw::evaluate() and ContactLaw::wrench(), over an array of
+// contacts, one by one and side by side in lanes. One benchmark a law, branch and rolling model.
 
 #include "sample_contacts.h"
 
@@ -13,7 +12,7 @@
 namespace {
 using namespace eepa_bench;
 
-/// As many contacts as lie in the second-level cache, and many more than any cache holds.
+/// Numbers of contacts: they fit the second-level cache, or exceed any cache.
 constexpr std::size_t in_cache = 1024, in_memory = 1 << 19;
 
 /// Shares of the contacts.
@@ -60,7 +59,7 @@ void evaluate_all(benchmark::State &state, const Choice &choice, Kind kind, std:
     benchmark::ClobberMemory();
   }
 
-  // whether they were what they are said to be
+  // check that contacts are still on the branch that the benchmark names
   const Census found = take_census<ContactLaw>(c, packs);
   constexpr double all = 1.0 - 1e-9;
   const bool as_said = kind == Kind::loading ? found.loading > all && found.sliding == 0.0

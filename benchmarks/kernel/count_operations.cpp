@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Floating-point operations of the contact law, counted while it runs: the kernel is written for
-// any kind of number, and here it gets one that keeps count. Writes CSV.
+// Floating-point operations of the contact law, counted while it runs: the kernel is a template on
+// the scalar type, and here that type counts. Writes CSV.
 
 #include "counted.h"
 #include "sample_contacts.h"
@@ -22,7 +22,7 @@ int main()
         Counted::count = Operations();
         for (auto &[contact, history] : packs) {
           const auto response = ContactLaw::evaluate(c, contact, time_step, history);
-          // Eigen works out what is asked for
+          // assigned, because Eigen evaluates an expression only then
           [[maybe_unused]] const eepa::Wrench<Counted> wrench =
               ContactLaw::wrench(response, contact);
         }

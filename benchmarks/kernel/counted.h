@@ -10,12 +10,12 @@
 
 namespace eepa_bench {
 
-/// How often each operation was done. A change of sign counts as none: it costs a bit, if that.
+/// Number of each operation. A change of sign is not counted: it is almost free.
 struct Operations {
   long additions = 0, multiplications = 0, divisions = 0, roots = 0, powers = 0, comparisons = 0;
 };
 
-/// A double that keeps count: one more kind of `Real` for the kernel.
+/// A double that counts operations: another `Real` for the kernel.
 class Counted {
  public:
   static inline Operations count;

@@ -2,8 +2,8 @@
 #ifndef EEPA_SAMPLE_CONTACTS_H
 #define EEPA_SAMPLE_CONTACTS_H
 
-// Contacts as a packing of a cohesive powder has them, of one branch each, for the programs that
-// time and count what the law does with them.
+// Contacts like those in a packing of a cohesive powder, each on one branch, for the programs that
+// time the law and count its operations.
 
 #include <eepa/dispatch.h>
 
@@ -16,7 +16,7 @@ namespace eepa_bench {
 
 using eepa::Vec3;
 
-/// What is asked of the contacts of one run.
+/// Kinds of contacts of one run.
 enum class Kind { loading, unloading, adhesive, sliding, mixed };
 constexpr Kind all_kinds[] = {Kind::loading, Kind::unloading, Kind::adhesive, Kind::sliding,
                               Kind::mixed};
@@ -112,8 +112,8 @@ struct Sample {
 
 constexpr double time_step = 1.8e-6;
 
-/// Contacts of a kind that stay so however often they are evaluated: only those that slide (and
-/// with sds roll at their bound) have a velocity that winds their springs up.
+/// Contacts of a kind that stay of that kind in any number of evaluations: only contacts that slide
+/// (and with sds roll at their bound) have a velocity that winds their springs.
 template <class ContactLaw>
 std::vector<Sample> make_samples(const Choice &choice, Kind kind, std::size_t count)
 {
@@ -122,7 +122,7 @@ std::vector<Sample> make_samples(const Choice &choice, Kind kind, std::size_t co
   std::vector<Sample> samples(count);
   for (Sample &sample : samples) {
     Kind own = kind;
-    if (kind == Kind::mixed) {    // about what the dense compression has
+    if (kind == Kind::mixed) {    // shares as in the dense compression, about
       const double which = random();
       own = which < 0.6  ? Kind::loading
           : which < 0.85 ? Kind::unloading
@@ -164,7 +164,7 @@ std::vector<Sample> make_samples(const Choice &choice, Kind kind, std::size_t co
   return samples;
 }
 
-/// How many contacts a number of the kernel stands for.
+/// Number of contacts in one Real of the kernel.
 template <class Real> constexpr std::size_t width = 1;
 #ifdef EEPA_HAS_LANES
 template <> constexpr std::size_t width<eepa::Lanes> = eepa::Lanes::size();
@@ -183,13 +183,13 @@ void set_lane(eepa::Vector3<Real> &vector, std::size_t lane, const Vec3 &value)
   for (int k = 0; k < 3; k++) set_lane(vector[k], lane, value[k]);
 }
 
-/// As many contacts side by side as a number stands for.
+/// As many contacts side by side as a Real has.
 template <class Real> struct Pack {
   eepa::ContactOf<Real> contact;
   eepa::HistoryOf<Real> history;
 };
 
-/// The contacts in another kind of number; those that fill no pack are left out.
+/// The contacts converted to another Real; those that do not fill a pack are left out.
 template <class Real> std::vector<Pack<Real>> pack(const std::vector<Sample> &samples)
 {
   std::vector<Pack<Real>> packs(samples.size() / width<Real>);
