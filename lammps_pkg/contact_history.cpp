@@ -299,13 +299,13 @@ void ContactHistory::post_integrate()
   const double steps = std::max(1, neighbor->ago);
   double mine[] = {0.0, 0.0}, all[2];    // motion with growth, growth alone
   for (int i = 0; i < std::min(atom->nlocal, static_cast<int>(listed_radius.size())); i++) {
-    double way_squared = 0.0;
+    double displacement_squared = 0.0;
     for (int k = 0; k < 3; k++) {
-      const double way = atom->x[i][k] - listed_position[i][k];
-      way_squared += way * way;
+      const double displacement = atom->x[i][k] - listed_position[i][k];
+      displacement_squared += displacement * displacement;
     }
     const double grown = std::max(0.0, atom->radius[i] - listed_radius[i]);
-    mine[0] = std::max(mine[0], std::sqrt(way_squared) + grown * (1.0 + 1.0 / steps));
+    mine[0] = std::max(mine[0], std::sqrt(displacement_squared) + grown * (1.0 + 1.0 / steps));
     mine[1] = std::max(mine[1], grown);
   }
   MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);

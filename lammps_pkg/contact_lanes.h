@@ -89,16 +89,16 @@ class ContactLanes {
                              ContactSlice &slice) const
   {
     double *f = forces.f, *torque = forces.torque;
-    const eepa::LaneRows push(wrench.force), turn_i(wrench.torque_i), turn_j(wrench.torque_j);
+    const eepa::LaneRows force(wrench.force), turn_i(wrench.torque_i), turn_j(wrench.torque_j);
     for (int lane = 0; lane < width; lane++) {
-      push.add_to(f + 3 * i_[lane], lane);
+      force.add_to(f + 3 * i_[lane], lane);
       turn_i.add_to(torque + 3 * i_[lane], lane);
       const int j = static_cast<int>(j_[lane]);
       if (slice.writes(j)) {
-        push.subtract_from(f + 3 * j_[lane], lane);
+        force.subtract_from(f + 3 * j_[lane], lane);
         turn_j.add_to(torque + 3 * j_[lane], lane);
       } else if (slice.defers(j)) {
-        slice.deferred.push_back({j, -push[lane], turn_j[lane]});
+        slice.deferred.push_back({j, -force[lane], turn_j[lane]});
       }
     }
   }

@@ -26,7 +26,7 @@
 using namespace LAMMPS_NS;
 
 FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), masses(lmp), felt{}, felt_vector{}
+    Fix(lmp, narg, arg), masses(lmp), surface_sums{}, output_vector{}
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR,
@@ -49,7 +49,7 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   coefficients = eepa::resolve(parameters, style.settings);
   static_cast<eepa::WallShape &>(surfaces) = typed.shape;
   require_walls_in_the_box();
-  made_at = {surfaces.lo, surfaces.hi};
+  initial_position = {surfaces.lo, surfaces.hi};
   contact_table = typed.contact_table;
   place_surfaces();
   change_motion(typed.motion);
@@ -121,8 +121,8 @@ void FixWallGranEepa::init()
   keep_ledger = EnergyLedger::wanted(modify);
   ledger_starts = keep_ledger && (ledger_starts || !kept);
   radii_may_change = LAMMPS_NS::radii_may_change(modify);
-  require_variables(told);
-  if (loaded()) require_limits(told.load, platen.position);
+  require_variables(motion_args);
+  if (loaded()) require_limits(motion_args.load, platen.position);
 }
 
 std::string FixWallGranEepa::style_name() const
@@ -193,7 +193,7 @@ double FixWallGranEepa::contact_time_step()
 double FixWallGranEepa::platen_time_step() const
 {
   // the platen is a mass on parallel springs
-  const double stiffness = felt_vector[CONTACTS] * load_stiffness;
+  const double stiffness = output_vector[CONTACTS] * load_stiffness;
   return stiffness > 0.0 ? eepa::largest_time_step(platen.mass, stiffness)
                          : std::numeric_limits<double>::infinity();
 }
@@ -208,7 +208,7 @@ void FixWallGranEepa::check_platen()
       fmt::format("fix {} wall/gran/eepa: timestep {:.6g} is larger than {:.6g} = 0.2 "
                   "sqrt(m/(n k_max)) of the platen of mass m = {:.6g} on its n = {:.0f} contacts; "
                   "make it at least as heavy as the particles that touch it",
-                  id, dt, bound, platen.mass, felt_vector[CONTACTS]));
+                  id, dt, bound, platen.mass, output_vector[CONTACTS]));
 }
 
 /// Raises an error or a warning, according to dtcheck.

@@ -111,8 +111,8 @@ class FixWallGranEepa : public Fix {
   ContactMasses masses;
   WallSurfaces surfaces;
 
-  std::array<double, 2> made_at = {0.0, 0.0};    // planes lo and hi without displacement
-  eepa::MotionArguments told;
+  std::array<double, 2> initial_position = {0.0, 0.0};    // planes lo and hi without displacement
+  eepa::MotionArguments motion_args;                      // as typed last
   WallMotion motion;
   double sliding = 0.0;    // velocity of a surface by `shear`, as evaluated last
   Platen platen;
@@ -126,14 +126,14 @@ class FixWallGranEepa : public Fix {
   int n_values;                  // number of values of all surfaces
   double **history = nullptr;    // nmax x n_values, delta_max = 0 where there is no contact
   bool contact_table = false;
-  std::array<SurfaceSum, 2> felt;
-  std::array<double, N_VECTOR> felt_vector;
-  bool felt_summed = true;    // whether felt_vector has the sum over all ranks of `felt`
+  std::array<SurfaceSum, 2> surface_sums;
+  std::array<double, N_VECTOR> output_vector;
+  bool output_is_summed = true;    // whether output_vector has surface_sums of all ranks
 
   // the atoms that a force call visits: all that can touch a surface before the next collection
   std::vector<int> candidates;
   WallSurfaces collected_at;        // the surfaces at the last collection
-  double way_left = 0.0;            // travel of the surfaces that requires the next collection
+  double travel_left = 0.0;         // travel of the surfaces that requires the next collection
   bool radii_may_change = false;    // during a run
 
   EnergyLedger ledger;
@@ -141,16 +141,16 @@ class FixWallGranEepa : public Fix {
   bool ledger_starts = false;    // with the next step: no ledger has booked the one before
   bool after_setup = false;      // whether the last force call was a set-up's
   std::vector<class ComputeGranEepaEnergyAtom *> atom_losses;    // that sum losses by atom
-  double power = 0.0;          // of the surfaces on this rank's particles, at the last force call
-  bool needs_setup = false;    // a new platen, on which no force call has computed the reaction
-  double push = 0.0;           // force of the platen on them along its axis, at the last force call
-  double drag = 0.0;           // power of a platen's sliding surface on them, likewise
+  double power = 0.0;           // of the surfaces on this rank's particles, at the last force call
+  bool needs_setup = false;     // a new platen, on which no force call has computed the reaction
+  double platen_force = 0.0;    // on the particles along its axis, at the last force call
+  double platen_shear_power = 0.0;    // of its sliding surface on the particles, at that call
 
   std::unique_ptr<const ContactEngine> engine;    // of the law
-  StepRequest request;                            // of the force call that is under way
+  StepRequest request;                            // of the present force call
 
   void require_walls_in_the_box() const;
-  bool loaded() const { return told.drive == eepa::WallDrive::load; }
+  bool loaded() const { return motion_args.drive == eepa::WallDrive::load; }
   /// Changes to another motion and keeps position, contacts and the velocity of a platen.
   void change_motion(const eepa::MotionArguments &next);
   void require_variables(const eepa::MotionArguments &motion) const;

@@ -40,10 +40,10 @@ void FixWallGranEepa::post_force(int /*vflag*/)
     check_time_step();
   place_surfaces();
   if (update->setupflag || neighbor->ago == 0 || !motion_is_bounded() ||
-      !(surfaces.moved_since(collected_at) <= way_left))
+      !(surfaces.moved_since(collected_at) <= travel_left))
     collect_candidates();
-  felt = {};
-  felt_summed = false;
+  surface_sums = {};
+  output_is_summed = false;
   ledger.elastic = eepa::StoredEnergy();
   const double power_before = power;
   power = 0.0;
@@ -60,19 +60,20 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   if (step) ledger_starts = false;
   if (loaded()) {
     const int dim = surfaces.axis();
-    const double push_before = push;
-    push = -felt[0].force[dim];
+    const double platen_force_before = platen_force;
+    platen_force = -surface_sums[0].force[dim];
     // a platen's velocity may change within a step, so force times displacement is the work
-    const double drag_before = drag;
-    drag = told.slides ? -felt[0].force[told.shear_axis] * sliding : 0.0;
+    const double platen_shear_power_before = platen_shear_power;
+    platen_shear_power =
+        motion_args.slides ? -surface_sums[0].force[motion_args.shear_axis] * sliding : 0.0;
     if (keep_ledger && step) {
-      ledger.wall_work += 0.5 * (push_before + push) * platen.travel();
-      ledger.wall_work += 0.5 * (drag_before + drag) * dt;
+      ledger.wall_work += 0.5 * (platen_force_before + platen_force) * platen.travel();
+      ledger.wall_work += 0.5 * (platen_shear_power_before + platen_shear_power) * dt;
     }
     // MPI gives every rank the same bits, so that all ranks move the platen alike
     sum_forces();
     load_now = evaluate_load();
-    if (!step) platen.set_forces(load_now, felt_vector[FORCE_X + dim]);
+    if (!step) platen.set_forces(load_now, output_vector[FORCE_X + dim]);
     check_platen();
   } else if (keep_ledger && step) {
     ledger.wall_work += 0.5 * (power_before + power) * dt;
@@ -92,13 +93,13 @@ bool FixWallGranEepa::motion_is_bounded() const
 void FixWallGranEepa::collect_candidates()
 {
   double margin = 0.0;
-  way_left = 0.0;
+  travel_left = 0.0;
   if (motion_is_bounded()) {
     // Surfaces may move by half the skin. Atoms may move by half the skin from their positions in a
     // new neighbour list; in an older list they may have done so already, the other way. Some
     // rounding is added.
-    way_left = 0.5 * neighbor->skin;
-    margin = (1.0 + 1e-6) * (way_left + (neighbor->ago == 0 ? 0.5 : 1.0) * neighbor->skin);
+    travel_left = 0.5 * neighbor->skin;
+    margin = (1.0 + 1e-6) * (travel_left + (neighbor->ago == 0 ? 0.5 : 1.0) * neighbor->skin);
   }
   collected_at = surfaces;
   candidates.clear();
@@ -166,9 +167,9 @@ void FixWallGranEepa::meet(int i, int surface, bool member)
   for (int k = 0; k < 3; k++) {
     atom->f[i][k] += wrench.force[k];
     atom->torque[i][k] += wrench.torque_i[k];
-    felt[surface].force[k] -= wrench.force[k];
+    surface_sums[surface].force[k] -= wrench.force[k];
   }
-  felt[surface].contacts += 1.0;
+  surface_sums[surface].contacts += 1.0;
   if (contact_table) tabulate(i, body, point, outcome);
 }
 
@@ -217,8 +218,8 @@ void FixWallGranEepa::sum_forces()
 {
   double mine[8], all[8];
   for (int s = 0; s < 2; s++) {
-    std::copy_n(felt[s].force, 3, mine + 4 * s);
-    mine[4 * s + 3] = felt[s].contacts;
+    std::copy_n(surface_sums[s].force, 3, mine + 4 * s);
+    mine[4 * s + 3] = surface_sums[s].contacts;
   }
   MPI_Allreduce(mine, all, 8, MPI_DOUBLE, MPI_SUM, world);
   if (!surfaces.is_plane()) {
@@ -229,22 +230,22 @@ void FixWallGranEepa::sum_forces()
     }
   }
   for (int k = 0; k < 3; k++) {
-    felt_vector[FIRST_FORCE_X + k] = all[k];
-    felt_vector[SECOND_FORCE_X + k] = all[4 + k];
-    felt_vector[FORCE_X + k] = all[k] + all[4 + k];
+    output_vector[FIRST_FORCE_X + k] = all[k];
+    output_vector[SECOND_FORCE_X + k] = all[4 + k];
+    output_vector[FORCE_X + k] = all[k] + all[4 + k];
   }
-  felt_vector[CONTACTS] = all[3] + all[7];
-  felt_summed = true;
+  output_vector[CONTACTS] = all[3] + all[7];
+  output_is_summed = true;
 }
 
 double FixWallGranEepa::compute_vector(int n)
 {
-  if (!felt_summed) sum_forces();
-  felt_vector[POSITION] = loaded() ? platen.position : surfaces.position();
-  felt_vector[VELOCITY] = loaded() ? platen.velocity : surfaces.normal_velocity();
-  felt_vector[LOAD_FORCE] = loaded() ? load_now : 0.0;
-  felt_vector[LOAD_KINETIC_ENERGY] = loaded() ? platen.kinetic_energy() : 0.0;
-  felt_vector[LOAD_WORK] = platen.work;
-  felt_vector[LOAD_DISSIPATED] = platen.dissipated;
-  return felt_vector[n];
+  if (!output_is_summed) sum_forces();
+  output_vector[POSITION] = loaded() ? platen.position : surfaces.position();
+  output_vector[VELOCITY] = loaded() ? platen.velocity : surfaces.normal_velocity();
+  output_vector[LOAD_FORCE] = loaded() ? load_now : 0.0;
+  output_vector[LOAD_KINETIC_ENERGY] = loaded() ? platen.kinetic_energy() : 0.0;
+  output_vector[LOAD_WORK] = platen.work;
+  output_vector[LOAD_DISSIPATED] = platen.dissipated;
+  return output_vector[n];
 }

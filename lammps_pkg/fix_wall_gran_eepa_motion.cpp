@@ -56,14 +56,14 @@ double FixWallGranEepa::evaluate(const char *what, const eepa::Quantity &quantit
 /// Evaluates the user's velocities. Their variables may ask for this fix's own vector.
 void FixWallGranEepa::evaluate_motion()
 {
-  bool any = !told.shear.variable.empty();
-  for (const auto &component : told.velocity) any |= !component.variable.empty();
+  bool any = !motion_args.shear.variable.empty();
+  for (const auto &component : motion_args.velocity) any |= !component.variable.empty();
   if (!any) return;
   modify->clearstep_compute();
   // evaluate all components before one is used
   WallMotion::Vector given;
-  for (int k = 0; k < 3; k++) given[k] = evaluate("velocity", told.velocity[k]);
-  sliding = evaluate("shear", told.shear);
+  for (int k = 0; k < 3; k++) given[k] = evaluate("velocity", motion_args.velocity[k]);
+  sliding = evaluate("shear", motion_args.shear);
   motion.given = given;
   modify->addstep_compute(update->ntimestep + 1);
 }
@@ -71,7 +71,7 @@ void FixWallGranEepa::evaluate_motion()
 /// External force along the plane's axis. Its variables may ask for this fix's own vector.
 double FixWallGranEepa::evaluate_load()
 {
-  const eepa::LoadArguments &load = told.load;
+  const eepa::LoadArguments &load = motion_args.load;
   const bool any = !load.force.variable.empty() || !load.pressure.variable.empty() ||
       !load.area.variable.empty();
   if (any) modify->clearstep_compute();
@@ -109,14 +109,14 @@ void FixWallGranEepa::initial_integrate(int /*vflag*/)
 
 void FixWallGranEepa::final_integrate()
 {
-  if (loaded()) platen.end_step(load_now, felt_vector[FORCE_X + surfaces.axis()], dt);
+  if (loaded()) platen.end_step(load_now, output_vector[FORCE_X + surfaces.axis()], dt);
 }
 
 /// Moves the surfaces to the present position of motion and platen.
 void FixWallGranEepa::place_surfaces()
 {
-  surfaces.lo = made_at[0];
-  surfaces.hi = made_at[1];
+  surfaces.lo = initial_position[0];
+  surfaces.hi = initial_position[1];
   surfaces.displacement = motion.displacement;
   surfaces.velocity = motion.velocity();
   surfaces.surface_speed = 0.0;
@@ -126,9 +126,9 @@ void FixWallGranEepa::place_surfaces()
     surfaces.displacement[dim] = 0.0;
     surfaces.velocity[dim] = platen.velocity;
   }
-  if (told.slides) {
-    if (surfaces.is_plane() || told.shear_axis == 2)
-      surfaces.velocity[told.shear_axis] = sliding;
+  if (motion_args.slides) {
+    if (surfaces.is_plane() || motion_args.shear_axis == 2)
+      surfaces.velocity[motion_args.shear_axis] = sliding;
     else
       surfaces.surface_speed = sliding;
   }
@@ -153,11 +153,11 @@ void FixWallGranEepa::change_motion(const eepa::MotionArguments &next)
   const double speed = was_loaded ? platen.velocity : surfaces.normal_velocity();
   if (was_loaded) {
     const int dim = surfaces.axis();
-    motion.displacement[dim] = place - made_at[surfaces.has_lo ? 0 : 1];
+    motion.displacement[dim] = place - initial_position[surfaces.has_lo ? 0 : 1];
     if (!is_loaded) platen.stop();
   }
   const double had = was_loaded && is_loaded ? platen.kinetic_energy() : 0.0;
-  told = next;
+  motion_args = next;
   motion.drive = next.drive;
   motion.wiggle_axis = next.wiggle_axis;
   motion.amplitude = next.amplitude;

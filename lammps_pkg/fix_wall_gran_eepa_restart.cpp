@@ -163,15 +163,15 @@ std::vector<double> FixWallGranEepa::restart_state() const
   state[COUNT] = N_STATE;
   state[KIND] = surfaces.kind;
   state[SIDES] = sides_of(surfaces);
-  state[LO] = made_at[0];
-  state[HI] = made_at[1];
+  state[LO] = initial_position[0];
+  state[HI] = initial_position[1];
   state[RADIUS] = surfaces.radius;
   state[LAW] = static_cast<double>(style.settings.law);
   state[EXPONENT] = style.settings.exponent;
   state[ROLLING_SPRING] = parameters.rolling == eepa::RollingModel::sds ? 1.0 : 0.0;
   state[TWISTING_SPRING] = parameters.twisting == eepa::TwistingModel::marshall ? 1.0 : 0.0;
   state[VALUES_A_CONTACT] = history_size;
-  state[DRIVE] = static_cast<double>(told.drive);
+  state[DRIVE] = static_cast<double>(motion_args.drive);
   std::copy_n(motion.displacement.begin(), 3, state.begin() + DISPLACEMENT);
   std::copy_n(motion.origin.begin(), 3, state.begin() + ORIGIN);
   state[TIME_BEFORE] = motion.time.before;
@@ -188,7 +188,7 @@ std::vector<double> FixWallGranEepa::restart_state() const
   state[PLATEN_WORK] = platen.work;
   state[PLATEN_DISSIPATED] = platen.dissipated;
   static_assert(N_VECTOR == N_STATE - VECTOR, "the file has the whole global vector");
-  std::copy(felt_vector.begin(), felt_vector.end(), state.begin() + VECTOR);
+  std::copy(output_vector.begin(), output_vector.end(), state.begin() + VECTOR);
   return state;
 }
 
@@ -223,8 +223,8 @@ void FixWallGranEepa::restart(char *buf)
     error->all(FLERR, "fix {} wall/gran/eepa: the restart file is damaged: {}", id, wrong);
   require_same_wall(state);
   take_up_motion(state);
-  std::copy_n(state.begin() + VECTOR, N_VECTOR, felt_vector.begin());
-  felt_summed = true;
+  std::copy_n(state.begin() + VECTOR, N_VECTOR, output_vector.begin());
+  output_is_summed = true;
 }
 
 /// Stops where the histories belong to other faces or another layout. Warns where law or exponent
@@ -271,8 +271,8 @@ void FixWallGranEepa::require_same_wall(const std::vector<double> &state) const
     const char *name;
     bool there;
     double typed, stored;
-  } planes[] = {{"lo", surfaces.has_lo, made_at[0], state[LO]},
-                {"hi", surfaces.has_hi, made_at[1], state[HI]}};
+  } planes[] = {{"lo", surfaces.has_lo, initial_position[0], state[LO]},
+                {"hi", surfaces.has_hi, initial_position[1], state[HI]}};
   for (const auto &plane : planes)
     if (plane.there && plane.typed != plane.stored)
       error->warning(FLERR,
@@ -284,11 +284,11 @@ void FixWallGranEepa::require_same_wall(const std::vector<double> &state) const
 /// Restores the wall of the file, then changes its motion where the command gives another one.
 void FixWallGranEepa::take_up_motion(const std::vector<double> &state)
 {
-  const eepa::MotionArguments typed = told;
-  made_at = {state[LO], state[HI]};
-  told = eepa::MotionArguments();
-  told.drive = static_cast<WallDrive>(static_cast<int>(state[DRIVE]));
-  motion.drive = told.drive;
+  const eepa::MotionArguments typed = motion_args;
+  initial_position = {state[LO], state[HI]};
+  motion_args = eepa::MotionArguments();
+  motion_args.drive = static_cast<WallDrive>(static_cast<int>(state[DRIVE]));
+  motion.drive = motion_args.drive;
   std::copy_n(state.begin() + DISPLACEMENT, 3, motion.displacement.begin());
   std::copy_n(state.begin() + ORIGIN, 3, motion.origin.begin());
   motion.time.before = state[TIME_BEFORE];
@@ -307,18 +307,19 @@ void FixWallGranEepa::take_up_motion(const std::vector<double> &state)
 
   const bool same_wiggle = typed.wiggle_axis == motion.wiggle_axis &&
       typed.amplitude == motion.amplitude && typed.period == motion.period;
-  if (typed.drive != told.drive || loaded() || (typed.drive == WallDrive::wiggle && !same_wiggle)) {
+  if (typed.drive != motion_args.drive || loaded() ||
+      (typed.drive == WallDrive::wiggle && !same_wiggle)) {
     change_motion(typed);
     return;
   }
   // the same motion goes on; numbers of the command replace those of the file
-  told = typed;
+  motion_args = typed;
   for (int k = 0; k < 3; k++)
-    if (told.velocity[k].variable.empty()) motion.given[k] = told.velocity[k].value;
-  sliding = told.shear.value;
-  if (told.slides && !told.shear.variable.empty())
-    sliding = surfaces.is_plane() || told.shear_axis == 2
-        ? state[SURFACE_VELOCITY + told.shear_axis]
+    if (motion_args.velocity[k].variable.empty()) motion.given[k] = motion_args.velocity[k].value;
+  sliding = motion_args.shear.value;
+  if (motion_args.slides && !motion_args.shear.variable.empty())
+    sliding = surfaces.is_plane() || motion_args.shear_axis == 2
+        ? state[SURFACE_VELOCITY + motion_args.shear_axis]
         : state[SURFACE_SPEED];
   place_surfaces();
 }

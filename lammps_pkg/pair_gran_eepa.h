@@ -141,7 +141,7 @@ class PairGranEepa : public Pair {
 
   std::unique_ptr<const ContactEngine> engine;    // of the law, made once a run
 
-  // of the force call that is under way
+  // of the present force call
   ParticleArrays particles;
   ForceArrays forces;
   StepRequest request;
@@ -171,7 +171,7 @@ class PairGranEepa : public Pair {
   int find_history(int i, int j, const double *&values, double &sign) const;
   void require_their_distance(int i, int j, double rsq) const;
   eepa::Body<double> lone_body(int i) const;
-  void tell(const eepa::Contact &, const ContactReport &);
+  void set_quantities(const eepa::Contact &, const ContactReport &);
 
   ParticleArrays particle_arrays();
   bool bonds_weaken_contacts() const;

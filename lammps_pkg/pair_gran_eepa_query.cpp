@@ -68,7 +68,7 @@ double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, doub
   const int status = find_history(i, j, history, sign);
   const ContactReport report = engine->report(coefficients[pair_index(itype, jtype)], contact,
                                               status ? history : nullptr, sign);
-  tell(contact, report);
+  set_quantities(contact, report);
   // branch and slip are those of the last step, if it saw this contact: a second evaluation can not
   // distinguish the end of the adhesive branch from the start of the reloading line
   if (status > eepa::ContactStatus::touching) {
@@ -90,7 +90,7 @@ eepa::Body<double> PairGranEepa::lone_body(int i) const
           masses.mass(i)};
 }
 
-void PairGranEepa::tell(const eepa::Contact &contact, const ContactReport &report)
+void PairGranEepa::set_quantities(const eepa::Contact &contact, const ContactReport &report)
 {
   const eepa::Response &response = report.response;
   svector[BRANCH] = static_cast<int>(response.branch);
