@@ -18,7 +18,7 @@
 // here, anywhere in the table, with .since(format), the first restart format that has it: the
 // present restart_format plus 1. Files of older formats are still read and leave the parameter at
 // its default. Then it needs its use in the kernel and its sentence in the documentation, whose
-// tables `EEPA_WRITE_DOCUMENTATION=1 build/test_parser --gtest_filter='Documentation*'` writes.
+// tables `EEPA_WRITE_DOCUMENTATION=1 build/test_parser --gtest_filter='*Documentation*'` writes.
 //
 // An entry is one of two:
 //

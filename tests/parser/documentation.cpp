@@ -3,7 +3,7 @@
 // The lists and the table of coefficients in lammps_pkg/doc/pair_gran_eepa.rst are those of the table of
 // parameters. They stand between `.. generated: NAME` and `.. generated: end`.
 //
-//   EEPA_WRITE_DOCUMENTATION=1 build/test_parser --gtest_filter='Documentation*'   writes them
+//   EEPA_WRITE_DOCUMENTATION=1 build/test_parser --gtest_filter='*Documentation*'   writes them
 
 #include <eepa_commands/parameter_table.h>
 #include <eepa_commands/words.h>
