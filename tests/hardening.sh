@@ -7,6 +7,7 @@
 #   hardening.sh valgrind         memcheck on tests/fuzz/in.valgrind
 #   hardening.sh differential [COUNT]  random scripts in ways that must not matter, on 1, 2 and 4 ranks (100)
 #   hardening.sh fpe              the same in-file with floating-point exceptions trapped
+#   hardening.sh mutation [OPTION...]  small faults in kernel and commands, see tests/mutation/mutate.py
 #
 # EEPA_LMP: the lmp to use (build/lmp). EEPA_HARDENING_DIR: working folder (build-hardening).
 set -eu
@@ -144,14 +145,24 @@ differential() {
     return $status
 }
 
+mutation() {
+    need clang++ clang
+    need ninja ninja-build
+    python3 "$root/tests/mutation/mutate.py" --work "$work/mutation" "$@"
+}
+
 case ${1:-} in
 differential) differential "${2:-100}" ;;
 fuzz) fuzz "${2:-300}" ;;
 sanitizers) sanitizers ;;
 valgrind) valgrind_ ;;
 fpe) fpe ;;
+mutation)
+    shift
+    mutation "$@"
+    ;;
 *)
-    sed -n '3,12s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,13s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

@@ -48,12 +48,6 @@ struct UnitExponent {
   {
     return overlap * fraction;
   }
-  /// dp/d(delta)
-  template <class Real>
-  EEPA_FUNCTION static Real slope(const Real &, const Coefficients &, const ScaleOf<Real> &)
-  {
-    return 1.0;
-  }
 };
 
 /// Power policy of a general exponent n: p(delta) = delta (delta/s)^(n-1).
@@ -69,6 +63,7 @@ struct GeneralExponent {
   {
     return overlap * std::pow(fraction, 1.0 / c.exponent);
   }
+  /// dp/d(delta); for exponent 1 it is 1, and nobody asks
   template <class Real>
   EEPA_FUNCTION static Real slope(const Real &overlap, const Coefficients &c,
                                   const ScaleOf<Real> &scale)

@@ -291,8 +291,7 @@ TEST(Energy, ClosedLoopsOfShearAndRollingDissipate)
       ASSERT_GE(out.lost.tangential_dashpot, -1e-12 * scale);
       // a slider that jumps beyond its bound in one step is booked by a trapezoid
       const Contact contact = b.contact(period / steps);
-      const double moved =
-          period / steps *
+      const double moved = period / steps *
           tangential_velocity(contact, contact.velocity.dot(contact.normal)).norm();
       ASSERT_GE(out.lost.sliding, -1e-12 * scale - 0.125 * stiffness * moved * moved);
       ASSERT_GE(out.lost.rolling, -1e-12 * scale);
@@ -643,12 +642,130 @@ TEST(Energy, OpeningBooksWhatTheSpringsHold)
   EXPECT_EQ(
       (dissipation_of_opening<ContactLaw<PlateauLaw, RollingSds>>(c, moving, 1e-7, h)).rolling,
       0.0);
+}
 
-  Dissipation sum;
+TEST(Energy, LossesAndStoresAddUp)
+{
+  const Dissipation lost{3.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+  EXPECT_EQ(lost.total(), 65.0);
+  Dissipation sum = lost;
   sum.add(lost, 0.5);
-  sum.add(lost, 0.5);
-  EXPECT_DOUBLE_EQ(sum.total(), lost.total());
-  EXPECT_DOUBLE_EQ(sum.total(),
-                   lost.hysteresis + lost.sliding + lost.rolling + lost.normal_dashpot);
+  EXPECT_EQ(sum.hysteresis, 4.5);
+  EXPECT_EQ(sum.normal_dashpot, 3.0);
+  EXPECT_EQ(sum.tangential_dashpot, 6.0);
+  EXPECT_EQ(sum.sliding, 12.0);
+  EXPECT_EQ(sum.rolling, 24.0);
+  EXPECT_EQ(sum.twisting, 48.0);
+  EXPECT_EQ((StoredEnergy{1.0, 2.0, 4.0, 8.0}.total()), 15.0);
+  EXPECT_EQ(Dissipation().total() + StoredEnergy().total(), 0.0);
+}
+
+// A group takes it away while it is compressed: what it stored a step ago, less the work of the force
+// that it had then
+TEST(Energy, ContactTakenAwayLosesWhatItStoredAStepAgo)
+{
+  const double dt = 1e-6, v = -0.5, x = 1e-5;    // compressed further by 5e-7 in this step
+  const Material m = material(Law::linear, 1e3, 2e3, 5e2, -1e-4);
+  Bodies b;
+  b.v_i = Vec3(v, 0.0, 0.0);
+  b.overlap = x;
+  History h;
+  h.max_overlap = 2e-5;
+  NormalPath path(m);
+  path.to(2e-5);
+  const auto lost = [&] {
+    return dissipation_of_opening<ContactLaw<LinearLaw<UnitExponent>, RollingNone>>(
+               resolve(m.p, m.law), b.contact(dt), dt, h)
+        .hysteresis;
+  };
+  const double before = x + dt * v;
+  EXPECT_DOUBLE_EQ(lost(), path.energy(before) - 0.5 * dt * v * path.at(before).force);
+  // it has just come near: it was apart a step ago
+  b.v_i = Vec3(-20.0, 0.0, 0.0);
+  EXPECT_DOUBLE_EQ(lost(), path.energy(0.0) + 0.5 * dt * 20.0 * path.at(0.0).force);
+  // at an overlap of 0 there is no contact any more
+  b.v_i.setZero();
+  b.overlap = 0.0;
+  EXPECT_DOUBLE_EQ(lost(), path.opening_loss());
+}
+
+// The dashpot of the step before is handed over from step to step: where nobody has booked that one,
+// its whole work is booked now, not what is left of it
+TEST(Energy, DashpotsOfAnUnbookedStepAreBookedWhole)
+{
+  Material m = material(Law::linear, 1e3, 1e3, 0.0);
+  m.p.damping = Damping::viscous;
+  m.p.viscous_normal = 0.01;
+  const double dt = 1e-6, v = 0.2, power = 0.01 * v * v * dt;
+  Bodies b;
+  b.v_i = Vec3(-v, 0.0, 0.0);
+  using Law = ContactLaw<LinearLaw<UnitExponent>, RollingNone>;
+  const Coefficients c = resolve(m.p, m.law);
+  History before, after;
+  const auto step = [&](double remembered, bool first, bool booked) {
+    before.max_overlap = remembered;
+    after = before;
+    const Contact contact = b.contact(dt);
+    const Response r = Law::evaluate(c, contact, dt, after);
+    return dissipation_of_step<Law>(c, contact, r, dt, first, before, after, booked).normal_dashpot;
+  };
+  EXPECT_NEAR(step(1e-5, true, true), 0.75 * power, 1e-12 * power);
+  EXPECT_NEAR(step(1e-5, false, true), power, 1e-12 * power);
+  EXPECT_NEAR(step(1e-5, false, false), 1.25 * power, 1e-12 * power);
+  // what follows a set-up, whose force is not booked either
+  EXPECT_NEAR(step(0.0, false, true), 1.25 * power, 1e-12 * power);
+  // so does the last part, of a contact that opens
+  b.overlap = -1e-9;
+  b.v_i = Vec3(v, 0.0, 0.0);
+  const auto opening = [&](double remembered, bool booked) {
+    before.max_overlap = remembered;
+    return dissipation_of_opening<Law>(c, b.contact(dt), dt, before, booked).normal_dashpot;
+  };
+  EXPECT_NEAR(opening(1e-5, true), 0.25 * power, 1e-12 * power);
+  EXPECT_NEAR(opening(1e-5, false), 0.5 * power, 1e-12 * power);
+  EXPECT_NEAR(opening(0.0, true), 0.5 * power, 1e-12 * power);
+}
+
+// Beyond what it remembers a contact loads
+TEST(Energy, OfAnOverlapBeyondTheRememberedOneIsThatOfLoading)
+{
+  for (const Material &m : materials()) {
+    NormalPath path(m);
+    path.to(0.5 * top);
+    const double beyond = path.energy(top);
+    path.to(top);
+    EXPECT_DOUBLE_EQ(beyond, path.energy(top));
+  }
+}
+
+// where it is 0 but for rounding, a difference of nearly equal numbers
+TEST(Energy, IsNeverNegativeForRounding)
+{
+  Random random(54);
+  int at_rest = 0;
+  for (int k = 0; k < 300; k++) {
+    const double n = random.uniform(1.05, 2.0);
+    NormalPath path(material(Law::linear, 1e3, 1e3 * random.uniform(1.1, 9.0), 0.0, 0.0, n));
+    const double peak = top * random.uniform(0.5, 1.0);
+    path.to(peak);
+    double x = path.plastic_overlap();
+    for (int ulp = 0; ulp < 6; ulp++) {
+      EXPECT_GE(path.energy(x), 0.0);
+      at_rest += path.energy(x) == 0.0;
+      x = std::nextafter(x, 1.0);
+    }
+    // nor is a loss while next to nothing happens
+    EXPECT_GE(path.loss(peak, std::nextafter(peak, 1.0)), 0.0);
+    EXPECT_GE(path.loss(std::nextafter(peak, 1.0), peak), 0.0);
+  }
+  EXPECT_GT(at_rest, 100);
+  // `luding`, whose stiffness changes along with the overlap
+  for (int k = 0; k < 3000; k++) {
+    const double k2 = 1e3 * (1.0 + random.decades(-3.0, 3.0));
+    NormalPath path(luding(k2, 1e3 * random.decades(-2.0, 2.0), 0.0, top));
+    const double m = top * random.uniform(0.01, 0.99), next = std::nextafter(m, 1.0);
+    EXPECT_GE(path.loss(m, next), 0.0);
+    EXPECT_GE(path.loss(next, m), 0.0);
+  }
 }
 }    // namespace energy_test

@@ -200,6 +200,26 @@ TEST(NormalLuding, AdhesiveBranchHoldsAtRest)
   EXPECT_GT(held, 1000);
 }
 
+// nor does rounding move a contact of any size off the boundary
+TEST(NormalLuding, AdhesiveBranchHoldsAtRestInContactsOfAnySize)
+{
+  Random random(59);
+  for (const double s : {0.0625, 1024.0}) {
+    Material m = published();
+    scale_with_diameter(m, 1.0);
+    int held = 0;
+    for (int k = 0; k < 500; k++) {
+      NormalPath path(m, s, s * radius);
+      path.to(s * random.uniform(0.1, 1.5) * limit);
+      const double down = random.decades(-2.0, -0.5) * path.max_overlap;
+      if (path.to(down).branch != Branch::adhesive) continue;
+      for (int step = 0; step < 3; step++) ASSERT_EQ(path.to(down).branch, Branch::adhesive);
+      held++;
+    }
+    EXPECT_GT(held, 100);
+  }
+}
+
 TEST(NormalLuding, ContinuousEverywhere)
 {
   for (double k2_ : {1.2 * k1, 3.0 * k1})

@@ -18,8 +18,7 @@
 #include <string>
 #include <vector>
 
-// Each test file has a namespace of its own, so that all of them can also be compiled as one
-// (tests/mutation does).
+// Each test file has a namespace of its own, so that all of them can also be compiled as one.
 
 namespace eepa_test {
 

@@ -31,6 +31,12 @@ TEST(TimeStep, LargestStiffnessOfAnyBranchAndDirection)
   EXPECT_DOUBLE_EQ(stiffness(m, 1e-3), 2.5 * 2e4);
 }
 
+TEST(TimeStep, MassOfASphere)
+{
+  EXPECT_DOUBLE_EQ(sphere_mass(2.0, 3.0), 4.0 * std::acos(-1.0));
+  EXPECT_DOUBLE_EQ(sphere_mass(0.5, 3.0), std::acos(-1.0) / 16.0);
+}
+
 TEST(TimeStep, StiffnessScalesWithSize)
 {
   Material m = material(Law::plateau, 1e3, 3e3, 2e3);
