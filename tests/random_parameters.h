@@ -45,10 +45,16 @@ double random_number(Draw &&draw, const Spread &spread, const eepa::Number &numb
   if (number.member == &eepa::Parameters::k1)
     return std::pow(10.0, between(spread.k1_low, spread.k1_high));
   if (range.least) {
-    const double least = p.*range.least * eepa::entry_of(s.law).least_ratio;
-    return at_the_end ? least : least * (1.0 + std::pow(10.0, between(spread.low, spread.high)));
+    const eepa::LawEntry &law = eepa::entry_of(s.law);
+    const double least = p.*range.least * law.least_ratio;
+    return at_the_end && !law.least_is_excluded
+        ? least
+        : least * (1.0 + std::pow(10.0, between(spread.low, spread.high)));
   }
   if (std::isfinite(range.low) && std::isfinite(range.high)) {
+    // a fraction of any order of magnitude
+    if (!at_the_end && range.low_is_excluded)
+      return range.high * std::pow(10.0, between(-3.0, 0.0));
     if (!at_the_end) return range.high - (range.high - range.low) * 0.999 * draw();
     return range.low_is_excluded || draw() < 0.5 ? range.high : range.low;
   }

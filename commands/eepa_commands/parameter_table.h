@@ -46,12 +46,14 @@ struct LawEntry {
   const char *name;
   bool has_exponent;     ///< else the exponent is 1
   double least_ratio;    ///< of k2 to k1 that the law allows
+  bool least_is_excluded = false;
 };
 
 /// All laws, in the order of the enumerators of eepa::Law.
 constexpr LawEntry law_table[] = {
     {"plateau", false, 2.0},
     {"linear", true, 1.0},
+    {"luding", false, 1.0, true},
 };
 constexpr int law_count = sizeof(law_table) / sizeof(law_table[0]);
 
@@ -100,6 +102,7 @@ namespace range {
   constexpr Range not_negative{">= 0", 0.0, infinity};
   constexpr Range not_positive{"<= 0 (a negative pull-off force attracts)", -infinity, 0.0};
   constexpr Range restitution{"between 0 (critical damping) and 1 (none)", 0.0, 1.0};
+  constexpr Range fraction{"> 0 and <= 1", 0.0, 1.0, true};
   constexpr Range from_k1{">= k1", -infinity, infinity, false, &Parameters::k1};
 }    // namespace range
 
@@ -238,6 +241,12 @@ constexpr Entry parameter_table[] = {
            range::not_positive, Mean::geometric},
     Number{&Parameters::mu, "mu", "coefficient of sliding friction", dimension::none,
            range::not_negative, Mean::geometric},
+    Number{&Parameters::depth, "phi_f", "largest plastic overlap over 2 R*", dimension::none,
+           range::fraction, Mean::geometric}
+        .with_keyword("depth")
+        .only_with(Law::luding)
+        .since(3),
+    choice<&Parameters::bound>("bound", "bound", Merge::same, {{"adhesive"}, {"contact"}}).since(3),
     choice<&Parameters::kt_given>("kt given", nullptr, Merge::either,
                                   {{nullptr}, {"kt", {&Parameters::kt}}}),
     Number{&Parameters::kt, "kt", "tangential stiffness", dimension::stiffness, range::not_negative,

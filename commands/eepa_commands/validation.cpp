@@ -76,6 +76,15 @@ namespace {
     }
   }
 
+  /// With k2 = k1 there is no overlap from which on the stiffness is k2.
+  void check_luding(Findings &found, const Parameters &p)
+  {
+    if (p.k2 == p.k1)
+      found.errors.push_back("k2 = " + text(p.k2) +
+                             " is not allowed with luding: it must be > k1 = " + text(p.k1) +
+                             "; use linear, which takes k2 = k1");
+  }
+
 }    // namespace
 
 Findings validate(const LawSettings &s)
@@ -101,6 +110,7 @@ Findings validate(const Parameters &p, const LawSettings &s)
     found.errors.push_back("kt must be given (force/length) when the exponent is " +
                            text(s.exponent) + ": 2/7 k1 is a stiffness only for exponent 1");
   if (s.law == Law::plateau && found.errors.empty()) check_plateau(found, p);
+  if (s.law == Law::luding && found.errors.empty()) check_luding(found, p);
   return found;
 }
 

@@ -6,8 +6,8 @@
 
 namespace eepa {
 
-/// The law of Luding with its limit branch (Granular Matter 10 (2008) 235, section 2.2; Singh,
-/// Magnanimo, Saitoh, Luding, New J. Phys. 17 (2015) 022002), exponent 1.
+/// The law of Luding with its limit branch, exponent 1 (Granular Matter 10 (2008) 235, section 2.2;
+/// Singh, Magnanimo, Luding, arXiv 1503.03720).
 ///
 /// A contact that remembers the overlap m <= delta* unloads with the stiffness
 ///   kappa = k1 + (k2 - k1) m/delta*,   delta* = k2/(k2 - k1) phi_f 2 R*   (wall: R* = R_i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // Restitution of `luding` over four decades of speed against the closed forms of LUDING.md (Singh,
-// Magnanimo, Saitoh, Luding, New J. Phys. 17 (2015) 022002 and arXiv 1503.03720).
+// Magnanimo, Luding, arXiv 1503.03720).
 
 #include "support.h"
 

@@ -41,6 +41,8 @@ void expect_same(const Parameters &a, const Parameters &b)
   EXPECT_DOUBLE_EQ(a.restitution, b.restitution);
   EXPECT_DOUBLE_EQ(a.viscous_normal, b.viscous_normal);
   EXPECT_DOUBLE_EQ(a.viscous_tangential, b.viscous_tangential);
+  EXPECT_EQ(a.bound, b.bound);
+  EXPECT_DOUBLE_EQ(a.depth, b.depth);
   EXPECT_EQ(a.rolling, b.rolling);
   EXPECT_EQ(a.twisting, b.twisting);
   EXPECT_DOUBLE_EQ(a.mu_r, b.mu_r);
@@ -115,12 +117,15 @@ TEST(Mixing, MeansOfTwo)
   b.mu_r = 0.013 * 9.0;
   b.kr = 147.0;
   b.rolling_viscous = 0.0093;
+  a.depth = 0.09;
+  b.depth = 0.04;
   const Parameters m = mixture(a, b);
   EXPECT_DOUBLE_EQ(m.k1, 1050.0);    // 2 (1/700 + 1/2100)^-1
   EXPECT_DOUBLE_EQ(m.k2, 2850.0);
   EXPECT_DOUBLE_EQ(m.k_adh, 165.0);
   EXPECT_DOUBLE_EQ(m.f0, -0.14);
   EXPECT_DOUBLE_EQ(m.mu, 0.74);
+  EXPECT_DOUBLE_EQ(m.depth, 0.06);
   EXPECT_DOUBLE_EQ(m.restitution, 0.305);
   EXPECT_DOUBLE_EQ(m.mu_r, 0.039);
   EXPECT_DOUBLE_EQ(m.kr, 73.5);
@@ -166,6 +171,7 @@ TEST(Mixing, IsSymmetric)
     Material a = any_material(random), b = any_material(random);
     b.p.damping = a.p.damping;
     b.p.rolling = a.p.rolling;
+    b.p.bound = a.p.bound;
     const Parameters x = mixture(a.p, b.p), y = mixture(b.p, a.p);
     expect_same(x, y);
     if (HasFailure()) break;
@@ -231,6 +237,10 @@ TEST(Mixing, RefusesWhatItCanNot)
   EXPECT_NE(why.find("rolling constant"), std::string::npos);
   EXPECT_NE(why.find("rolling sds"), std::string::npos);
   EXPECT_FALSE(mix(b, a, mixed, why));
+  b = full();
+  b.bound = FrictionBound::contact;
+  EXPECT_FALSE(mix(b, a, mixed, why));
+  EXPECT_EQ(why, "one has bound adhesive and the other bound contact");
   EXPECT_EQ(mixed.k1, 77.0);
 }
 }    // namespace mixing_test

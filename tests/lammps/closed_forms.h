@@ -29,6 +29,10 @@ namespace eepa_test {
 // For k2 = 2 k1, f0 = 0, k_adh < k2: W/E = 1/2 - (k_adh/k1) (1 - k_adh/(2 k2))/2. With f0 < 0 the
 // plateau lacks the work of f0 over A: the energy |f0| A is created, by the article's jump of the
 // force.
+//
+// luding: as linear with n = 1 and the stiffness k that D leaves in the place of k2, k = k1 +
+// (k2 - k1) D/L up to the limit overlap L = k2/(k2 - k1) depth 2 R*; pressed beyond L, it stores the
+// rest of E and gives it back.
 
 struct HeadOn {
   double max_overlap;        ///< D
@@ -64,6 +68,20 @@ inline HeadOn linear_impact(double energy, double k1, double k2, double k_adh, d
       k2 * ((std::pow(d, n + 1.0) - std::pow(a, n + 1.0)) / (n + 1.0) - power * (d - a)) -
       k_adh * std::pow(a, n + 1.0) / (n + 1.0) + f0 * d;
   return finish(energy, d, returned);
+}
+
+/// \param limit  L, delta* of the law
+inline HeadOn luding_impact(double energy, double k1, double k2, double k_adh, double f0,
+                            double limit)
+{
+  const double d = largest_overlap(energy, k1, f0, 1.0);
+  if (d <= limit) return linear_impact(energy, k1, k1 + (k2 - k1) * d / limit, k_adh, f0);
+  const double at_limit = 0.5 * k1 * limit * limit + f0 * limit;
+  const HeadOn plastic = linear_impact(at_limit, k1, k2, k_adh, f0);
+  // k2 x^2/2 + (k1 L + f0) x is what is left to store beyond
+  const double force = k1 * limit + f0;
+  const double x = (std::sqrt(force * force + 2.0 * k2 * (energy - at_limit)) - force) / k2;
+  return finish(energy, limit + x, plastic.returned_energy + energy - at_limit);
 }
 
 inline HeadOn plateau_impact(double energy, double k1, double k2, double k_adh, double f0)

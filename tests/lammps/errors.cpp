@@ -27,13 +27,28 @@ TEST_P(PairMistake, IsNamed)
 }
 
 const Mistake pair_mistakes[] = {
-    {"pair_style gran/eepa", "pair_style gran/eepa: missing value: law \\(plateau or linear\\)"},
+    {"pair_style gran/eepa",
+     "pair_style gran/eepa: missing value: law \\(plateau, linear or luding\\)"},
     {"pair_style gran/eepa hertz",
-     "pair_style gran/eepa: law 'hertz' is unknown: it must be plateau or linear"},
+     "pair_style gran/eepa: law 'hertz' is unknown: it must be plateau, linear or luding"},
     {"pair_style gran/eepa linear scale nan",
      "pair_style gran/eepa: scale d_ref = nan is not a finite number"},
     {"pair_style gran/eepa plateau exponent 2",
      "pair_style gran/eepa: exponent = 2 is not allowed with plateau"},
+    {"pair_style gran/eepa luding\npair_coeff * * 1e4 2e4 0 0 0",
+     "pair_coeff \\* \\* for gran/eepa: depth must be given with luding"},
+    {"pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 0 0 0 depth 0.1",
+     "pair_coeff \\* \\* for gran/eepa: keyword depth is not allowed with linear: only luding has "
+     "it"},
+    {"pair_style gran/eepa luding\npair_coeff * * 1e4 1e4 0 0 0 depth 0.1",
+     "k2 = 10000 is not allowed with luding: it must be > k1 = 10000"},
+    {"pair_style gran/eepa linear\npair_coeff 1 1 1e4 1e4 0 0 0 bound contact\n"
+     "pair_coeff 2 2 1e4 1e4 0 0 0\nrun 0",
+     "pair_coeff 1 2 can not be mixed: one has bound adhesive and the other bound contact"},
+    // settings changed after the coefficients were given
+    {"pair_style gran/eepa luding\npair_coeff * * 1e4 2e4 0 0 0 depth 0.1\n"
+     "pair_style gran/eepa linear\nrun 0",
+     "pair_coeff 1 1 for gran/eepa: depth is not allowed with linear"},
     {"pair_style gran/eepa linear\npair_coeff", "[Mm]issing|[Ii]ncorrect|[Ii]llegal"},
     {"pair_style gran/eepa linear\npair_coeff 1",
      "pair_coeff for gran/eepa: missing types I J|[Ii]ncorrect|[Ii]llegal"},
@@ -131,7 +146,7 @@ TEST_P(WallMistake, IsNamed)
 
 #define COEFF "linear coeff 1e4 2e4 0 0 0 "
 const Mistake wall_mistakes[] = {
-    {"hertz", ": law 'hertz' is unknown: it must be plateau or linear"},
+    {"hertz", ": law 'hertz' is unknown: it must be plateau, linear or luding"},
     {"linear scale 0 coeff 1 1 0 0 0 wall xplane 0 1", ": scale d_ref = 0 is not allowed"},
     {"linear", ": missing keyword coeff"},
     {"linear wall", ": keyword 'wall' is unknown"},
@@ -139,6 +154,9 @@ const Mistake wall_mistakes[] = {
     {"linear coeff 1e4 1e3 0 0 0 wall xplane 0 1",
      ": k2 = 1000 is not allowed: it must be >= k1 = 10000"},
     {"plateau coeff 1e4 1.5e4 0 0 0 wall xplane 0 1", ": k2 = 15000 is not allowed with plateau"},
+    {"luding coeff 1e4 2e4 0 0 0 wall xplane 0 1", ": depth must be given with luding"},
+    {COEFF "bound free wall xplane 0 1",
+     ": bound 'free' is unknown: it must be adhesive or contact"},
     {COEFF, ": missing keyword wall"},
     {COEFF "wall", ": missing value: kind of wall"},
     {COEFF "wall sphere 1",

@@ -16,10 +16,11 @@ namespace {
 
 struct Case {
   const char *name;
-  const char *law;    ///< plateau, or linear with its exponent
+  const char *law;    ///< plateau, luding, or linear with its exponent
   double k1, k2, k_adh, f0;
   double exponent;
-  double speed;    ///< of approach
+  double speed;          ///< of approach
+  double depth = 0.0;    ///< luding only
 };
 
 void PrintTo(const Case &c, std::ostream *out)
@@ -36,12 +37,16 @@ std::string style_of(const Case &c)
 
 std::string coefficients_of(const Case &c)
 {
-  return exact(c.k1) + " " + exact(c.k2) + " " + exact(c.k_adh) + " " + exact(c.f0) + " 0 kt 0";
+  return exact(c.k1) + " " + exact(c.k2) + " " + exact(c.k_adh) + " " + exact(c.f0) + " 0 kt 0" +
+      (c.depth > 0.0 ? " depth " + exact(c.depth) : "");
 }
 
-HeadOn closed_form(const Case &c, double mass)
+/// \param reach  2 R_i R_j/(R_i + R_j), at a wall 2 R_i
+HeadOn closed_form(const Case &c, double mass, double reach)
 {
   const double energy = 0.5 * mass * c.speed * c.speed;
+  if (c.depth > 0.0)
+    return luding_impact(energy, c.k1, c.k2, c.k_adh, c.f0, c.k2 / (c.k2 - c.k1) * c.depth * reach);
   return std::string(c.law) == "plateau"
       ? plateau_impact(energy, c.k1, c.k2, c.k_adh, c.f0)
       : linear_impact(energy, c.k1, c.k2, c.k_adh, c.f0, c.exponent);
@@ -78,7 +83,8 @@ TEST_P(HeadOnImpact, OfTwoParticles)
   const Sphere heavy{Vec3(0.75, 0, 0), Vec3(-0.25 * c.speed, 0, 0), Vec3::Zero(), 0.75};
   const double m1 = mass_of(light), m2 = mass_of(heavy);
   const double mass = m1 * m2 / (m1 + m2);
-  const HeadOn expected = closed_form(c, mass);
+  const double reach = 2.0 * light.radius * heavy.radius / (light.radius + heavy.radius);
+  const HeadOn expected = closed_form(c, mass, reach);
 
   Simulation simulation;
   simulation.open_box(3.0);
@@ -105,7 +111,7 @@ TEST_P(HeadOnImpact, OnAWall)
   const Case &c = GetParam();
   const Sphere sphere{Vec3(-0.5 - 1e-9, 0, 0), Vec3(c.speed, 0, 0)};
   const double mass = mass_of(sphere);
-  const HeadOn expected = closed_form(c, mass);
+  const HeadOn expected = closed_form(c, mass, 2.0 * sphere.radius);
 
   Simulation simulation;
   simulation.open_box(3.0);
@@ -135,6 +141,13 @@ const Case cases[] = {
     {"exponent_plastic", "linear", 1e5, 3e5, 0, 0, 1.5, 1.0},
     {"exponent_adhesive", "linear", 1e5, 2e5, 5e4, -5, 1.5, 1.0},
     {"exponent_2", "linear", 1e6, 2e6, 2e5, 0, 2.0, 1.0},
+    {"luding_plastic", "luding", 1e4, 4e4, 0, 0, 1.0, 1.0, 0.05},
+    {"luding_adhesive", "luding", 1e4, 4e4, 5e3, 0, 1.0, 1.0, 0.03},
+    {"luding_f0", "luding", 1e4, 4e4, 5e3, -10, 1.0, 1.0, 0.03},
+    {"luding_slow_f0_sticks", "luding", 1e4, 4e4, 0, -30, 1.0, 0.05, 0.03},
+    {"luding_sticks", "luding", 1e4, 4e4, 2e4, 0, 1.0, 1.0, 0.012},
+    {"luding_beyond_the_limit", "luding", 1e4, 4e4, 5e3, -10, 1.0, 1.0, 0.003},
+    {"luding_fast_with_adhesion", "luding", 1e4, 4e4, 2e4, 0, 1.0, 1.0, 0.001},
     {"plateau_plastic", "plateau", 1e4, 2e4, 0, 0, 1.0, 1.0},
     {"plateau_adhesive", "plateau", 1e4, 2e4, 5e3, 0, 1.0, 1.0},
     {"plateau_late_unloading", "plateau", 1e4, 4e4, 5e3, 0, 1.0, 1.0},

@@ -29,6 +29,7 @@ const Law laws[] = {
     {"linear", "linear", "1e4 2e4 5e3 -1 0.5 restitution 0.8"},
     {"twisting", "linear", "1e4 2e4 5e3 -1 0.5 restitution 0.8 twisting marshall"},
     {"plateau", "plateau limit_damping yes", "1e4 2e4 5e3 -1 0.5 viscous 1 1 rolling constant 0.1"},
+    {"luding", "luding", "1e4 3e4 5e3 -1 0.5 depth 0.02 restitution 0.8 bound contact"},
     {"exponent", "linear exponent 1.5",
      "1e5 2e5 5e4 -1 0.5 kt 3e3 restitution 0.8 rolling sds 1e3 1 0.1"},
 };

@@ -169,8 +169,11 @@ const Balance balances[] = {
     {"linear_sds", "linear", "1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling sds 2e3 1 0.1", 2e4, 16},
     {"plateau_constant", "plateau", "1e4 2e4 5e3 0 0.3 restitution 0.7 rolling constant 0.05", 2e4,
      16},
-    {"linear_twisting", "linear", 
+    {"linear_twisting", "linear",
      "1e4 2e4 5e3 -1 0.3 restitution 0.7 rolling constant 0.05 twisting marshall", 2e4, 16},
+    // contacts on both sides of the limit, at an overlap of 0.03
+    {"luding_sds", "luding", "1e4 2e4 5e3 -1 0.3 depth 0.03 restitution 0.7 rolling sds 2e3 1 0.1",
+     2e4, 16},
     // its time step's stiffness is the tangent at an overlap of 5% of d
     {"exponent", "linear exponent 1.5",
      "1e5 2e5 5e4 0 0.3 kt 3e3 restitution 0.7 rolling sds 2e3 1 0.1", 6.7e4, 13},
@@ -279,6 +282,9 @@ const Impact impacts[] = {
     {"elastic", "linear", "1e4 1e4 0 0 0", Vec3(2, 0, 0), 0.0, 5e-4},
     {"plastic", "linear", "1e4 2e4 5e3 0 0", Vec3(2, 0, 0), 0.0, 5e-4},
     {"adhesive", "plateau", "1e4 2e4 5e3 0 0", Vec3(2, 0, 0), 0.0, 5e-4},
+    {"luding", "luding", "1e4 2e4 5e3 0 0 depth 0.02", Vec3(2, 0, 0), 0.0, 5e-4},
+    {"luding_beyond_the_limit", "luding", "1e4 2e4 5e3 -1 0 depth 0.005", Vec3(2, 0, 0), 0.0, 5e-4},
+    {"luding_at_moving_wall", "luding", "1e4 2e4 5e3 0 0.3 depth 0.01", Vec3(2, 1, 0), -0.5, 5e-4},
     {"normal_dashpot", "linear", "1e4 2e4 0 0 0 viscous 16 0", Vec3(2, 0, 0), 0.0, 5e-4},
     {"normal_dashpot_at_moving_wall", "linear", "1e4 2e4 0 0 0 viscous 16 0", Vec3(2, 0, 0), -0.5,
      5e-4},

@@ -77,6 +77,9 @@ INSTANTIATE_TEST_SUITE_P(
                     "pair_coeff 1 1 1e4 2e4 5e3 -1 0.3 viscous 1 1\n"
                     "pair_coeff 1 2 1e4 3e4 5e3 -1 0.3 viscous 2 1\n"
                     "pair_coeff 2 2 1e4 4e4 5e3 -1 0.3 viscous 3 1",
+                    "luding\npair_coeff 1 1 1e4 2e4 5e3 -1 0.3 depth 0.02 restitution 0.8\n"
+                    "pair_coeff 2 2 2e4 3e4 5e3 -2 0.5 depth 0.01 restitution 0.7",
+                    "linear\npair_coeff * * 1e4 2e4 5e3 -1 0.3 restitution 0.8 bound contact",
                     "linear exponent 1.5\n"
                     "pair_coeff * * 1e5 2e5 5e4 -1 0.3 kt 3e3 rolling sds 1e3 1 0.1",
                     "linear\npair_coeff 1 1 1e4 2e4 5e3 -1 0.3 twisting marshall\n"

@@ -84,6 +84,10 @@ const Law laws[] = {
     {"plateau", "plateau", "8e3 2e4 5e3 -1 0.3 restitution 0.8"},
     {"plateau_constant", "plateau", "8e3 1.6e4 5e3 -1 0.3 viscous 2 1 rolling constant 0.01"},
     {"plateau_sds", "plateau", "8e3 2e4 5e3 -1 0.3 restitution 0.8 rolling sds 1e3 1 0.1"},
+    {"luding", "luding", "8e3 2e4 5e3 -1 0.3 depth 0.005 restitution 0.8"},
+    {"luding_sds", "luding",
+     "8e3 2e4 5e3 -1 0.3 depth 0.005 viscous 2 1 rolling sds 1e3 1 0.1 "
+     "bound contact"},
     {"exponent", "linear exponent 1.5", "4e4 8e4 2e4 -1 0.3 kt 3e3 restitution 0.8"},
     {"exponent_constant", "linear exponent 1.5",
      "4e4 8e4 2e4 -1 0.3 kt 3e3 restitution 0.8 rolling constant 0.01"},

@@ -133,6 +133,8 @@ const Law laws[] = {
      "1e4 1e4 0 0 0.1 restitution 0.9"},
     {"plateau", "plateau limit_damping yes", "1e4 2e4 5e3 -1 0.5 viscous 1 1 rolling constant 0.1",
      "5e3 1e4 5e3 -2 0.2 viscous 2 1 rolling constant 0.2"},
+    {"luding", "luding", "1e4 2e4 5e3 -1 0.5 depth 0.02 restitution 0.8 bound contact",
+     "5e3 1e4 5e3 -2 0.2 depth 0.01 restitution 0.6 bound contact"},
     {"exponent", "linear exponent 1.5",
      "1e5 2e5 5e4 -1 0.5 kt 3e3 restitution 0.8 rolling sds 1e3 1 0.1",
      "5e4 1e5 5e4 -1 0.2 kt 1e3 restitution 0.6 rolling sds 2e3 1 0.2"},

@@ -28,15 +28,18 @@ class MirrorParticle : public testing::TestWithParam<const char *> {};
 TEST_P(MirrorParticle, MovesAsAParticleAtAWall)
 {
   const std::string style = GetParam();
+  // the limit of luding is half as deep at the plane: depth 2 R there, depth R between the two
+  const bool luding = style.find("luding") == 0;
   Simulation wall, mirror;
   const Vec3 x(-0.6, 0, 0), v(1.3, 0, 0);
   open_walls_only(wall, {{x, v}});
   wall("fix integrate all nve/sphere\nfix wall all wall/gran/eepa " + style +
-       " coeff 2e4 4e4 1e4 -2 0 viscous 4 0 wall xplane NULL 0");
+       " coeff 2e4 4e4 1e4 -2 0 viscous 4 0" + (luding ? " depth 0.0025" : "") +
+       " wall xplane NULL 0");
   mirror.open_box(5.0);
   mirror.create({{x, v}, {-x, -v}});
-  mirror("pair_style gran/eepa " + style + "\npair_coeff 1 1 1e4 2e4 5e3 -2 0 viscous 2 0\n" +
-         "fix integrate all nve/sphere\ntimestep 1e-5");
+  mirror("pair_style gran/eepa " + style + "\npair_coeff 1 1 1e4 2e4 5e3 -2 0 viscous 2 0" +
+         (luding ? " depth 0.01" : "") + "\n" + "fix integrate all nve/sphere\ntimestep 1e-5");
   double deepest = 0.0;
   for (int k = 0; k < 60; k++) {
     wall.run(500);
@@ -51,7 +54,8 @@ TEST_P(MirrorParticle, MovesAsAParticleAtAWall)
 }
 INSTANTIATE_TEST_SUITE_P(Laws, MirrorParticle,
                          testing::Values("linear", "plateau", "linear scale 0.5",
-                                         "plateau scale 0.25", "linear limit_damping yes"));
+                                         "plateau scale 0.25", "linear limit_damping yes", "luding",
+                                         "luding scale 2"));
 
 // A particle between two planes, moved from one to the other and back: each plane remembers its own
 // largest overlap. Forces by the three branches of the linear law.

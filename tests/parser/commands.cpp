@@ -65,6 +65,8 @@ TEST(Parameters, HaveTheDefaultsOfTheContract)
   EXPECT_EQ(p.restitution, 1.0);
   EXPECT_EQ(p.rolling, RollingModel::none);
   EXPECT_EQ(p.twisting, TwistingModel::none);
+  EXPECT_EQ(p.bound, FrictionBound::adhesive);
+  EXPECT_EQ(p.depth, 0.0);
 }
 
 TEST(Parameters, TakeEveryKeywordInAnyOrder)
@@ -87,6 +89,10 @@ TEST(Parameters, TakeEveryKeywordInAnyOrder)
   EXPECT_EQ(q.mu_r, 0.001);
   EXPECT_EQ(parameters_of("1 2 3 -4 5 rolling none").rolling, RollingModel::none);
   EXPECT_EQ(parameters_of("1 2 3 -4 5 twisting none").twisting, TwistingModel::none);
+  EXPECT_EQ(parameters_of("1 2 3 -4 5 bound contact kt 6").bound, FrictionBound::contact);
+  EXPECT_EQ(parameters_of("1 2 3 -4 5 kt 6 bound adhesive").bound, FrictionBound::adhesive);
+  EXPECT_EQ(parameters_of("1 2 3 -4 5 kt 6 depth 0.05", "luding").depth, 0.05);
+  EXPECT_EQ(parameters_of("1 2 3 -4 5 depth 1", "luding").depth, 1.0);
 }
 
 TEST(Parameters, StopAtTheWordThatEndsThem)
@@ -131,9 +137,9 @@ TEST_P(StyleMistake, IsNamed)
             GetParam().message);
 }
 const Mistake style_mistakes[] = {
-    {"", "missing value: law (plateau or linear)"},
-    {"hertz", "law 'hertz' is unknown: it must be plateau or linear"},
-    {"Linear", "law 'Linear' is unknown: it must be plateau or linear"},
+    {"", "missing value: law (plateau, linear or luding)"},
+    {"hertz", "law 'hertz' is unknown: it must be plateau, linear or luding"},
+    {"Linear", "law 'Linear' is unknown: it must be plateau, linear or luding"},
     {"linear scale", "missing value: scale d_ref"},
     {"linear scale 0", "scale d_ref = 0 is not allowed: it must be > 0"},
     {"linear scale -1", "scale d_ref = -1 is not allowed: it must be > 0"},
@@ -141,6 +147,8 @@ const Mistake style_mistakes[] = {
     {"linear exponent", "missing value: exponent"},
     {"linear exponent 0.5", "exponent = 0.5 is not allowed: it must be between 1 and 2"},
     {"linear exponent 2.5", "exponent = 2.5 is not allowed: it must be between 1 and 2"},
+    {"luding exponent 1.5",
+     "exponent = 1.5 is not allowed with luding: only linear has an exponent"},
     {"plateau exponent 1.5",
      "exponent = 1.5 is not allowed with plateau: only linear has an exponent"},
     {"linear limit_damping", "missing value: limit_damping"},
@@ -210,10 +218,14 @@ const Mistake parameter_mistakes[] = {
     {"1 2 3 -4 5 twisting", "missing value: twisting model"},
     {"1 2 3 -4 5 twisting sds", "twisting model 'sds' is unknown: it must be none or marshall"},
     {"1 2 3 -4 5 twisting none twisting none", "keyword twisting is given twice"},
+    {"1 2 3 -4 5 bound", "missing value: bound"},
+    {"1 2 3 -4 5 bound none", "bound 'none' is unknown: it must be adhesive or contact"},
+    {"1 2 3 -4 5 bound contact bound contact", "keyword bound is given twice"},
+    {"1 2 3 -4 5 depth 0.05", "keyword depth is not allowed with linear: only luding has it"},
     {"1 2 3 -4 5 6",
-     "keyword '6' is unknown: it must be kt, restitution, viscous, rolling or twisting"},
+     "keyword '6' is unknown: it must be bound, kt, restitution, viscous, rolling or twisting"},
     {"1 2 3 -4 5 wall",
-     "keyword 'wall' is unknown: it must be kt, restitution, viscous, rolling or twisting"},
+     "keyword 'wall' is unknown: it must be bound, kt, restitution, viscous, rolling or twisting"},
     {"0 2 -3 -4 5",
      "k1 = 0 is not allowed: it must be > 0; k_adh = -3 is not allowed: it must be "
      ">= 0"},
@@ -232,6 +244,24 @@ TEST(ParameterMistakeOfALaw, IsNamed)
             }),
             "kt must be given (force/length) when the exponent is 1.5: 2/7 k1 is a stiffness only "
             "for exponent 1");
+  const Mistake of_luding[] = {
+      {"1 2 0 0 0", "depth must be given with luding; it must be > 0 and <= 1"},
+      {"1 2 0 0 0 depth", "missing value: depth"},
+      {"1 2 0 0 0 depth 0", "depth must be given with luding; it must be > 0 and <= 1"},
+      {"1 2 0 0 0 depth -0.1", "depth = -0.1 is not allowed: it must be > 0 and <= 1"},
+      {"1 2 0 0 0 depth 1.01", "depth = 1.01 is not allowed: it must be > 0 and <= 1"},
+      {"1 2 0 0 0 depth nan", "depth = nan is not a finite number"},
+      {"2 2 0 0 0 depth 0.1",
+       "k2 = 2 is not allowed with luding: it must be > k1 = 2; use linear, which takes k2 = k1"},
+      {"1 2 0 0 0 6",
+       "keyword '6' is unknown: it must be depth, bound, kt, restitution, viscous, rolling or "
+       "twisting"},
+  };
+  for (const Mistake &mistake : of_luding)
+    EXPECT_EQ(refusal([&] {
+                parameters_of(mistake.line, "luding");
+              }),
+              mistake.message);
 }
 
 TEST(RequireValid, RefusesWhatOtherSettingsForbid)
@@ -242,6 +272,12 @@ TEST(RequireValid, RefusesWhatOtherSettingsForbid)
   EXPECT_THROW(require_valid(p, style_of("plateau").settings, warnings), std::invalid_argument);
   EXPECT_THROW(require_valid(p, style_of("linear exponent 2").settings, warnings),
                std::invalid_argument);
+  EXPECT_THROW(require_valid(p, style_of("luding").settings, warnings), std::invalid_argument);
+  EXPECT_EQ(refusal([&] {
+              require_valid(parameters_of("1 2 0 0 0 depth 0.05", "luding"),
+                            style_of("linear").settings, warnings);
+            }),
+            "depth is not allowed with linear: only luding has it");
 }
 
 }    // namespace

@@ -139,8 +139,9 @@ std::string allowed(const Number &number)
     words = text(range.low) + " to " + text(range.high);
   if (range.least)
     for (const LawEntry &law : law_table)
-      if (law.least_ratio != 1.0)
-        words += "; " + emphasized(law.name) + ": >= " + text(law.least_ratio) + " " +
+      if (law.least_ratio != 1.0 || law.least_is_excluded)
+        words += "; " + emphasized(law.name) + (law.least_is_excluded ? ": > " : ": >= ") +
+            (law.least_ratio != 1.0 ? text(law.least_ratio) + " " : "") +
             number_of(range.least).name;
   if (number.law) words += "; " + emphasized(entry_of(*number.law).name) + " only";
   return words;

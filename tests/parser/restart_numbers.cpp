@@ -25,17 +25,21 @@ TEST(RoundTrip, OfParametersThroughWordsIsExact)
   for (const char *line : {"0.1 0.30000000000000004 1e-300 -3.3333333333333335 0.5",
                            "5e3 1e4 5e3 -1e-9 0.5 kt 0.1 restitution 0.7 rolling constant 0.001",
                            "5e3 1e4 5e3 0 0.5 kt 0 viscous 0.1 0.2 rolling sds 0.1 0.2 0.3",
-                           "5e3 1e4 5e3 0 0.5 twisting marshall"}) {
+                           "5e3 1e4 5e3 0 0.5 bound contact twisting marshall"}) {
     const Parameters p = parameters_of(line);
     EXPECT_TRUE(same(p, parameters_of(to_words(p)))) << to_words(p);
     EXPECT_TRUE(same(p, unpacked(pack(p)))) << to_words(p);
   }
+  const Parameters p = parameters_of("5e3 1e4 5e3 0 0.5 depth 0.1 bound contact", "luding");
+  EXPECT_TRUE(same(p, parameters_of(to_words(p), "luding"))) << to_words(p);
+  EXPECT_TRUE(same(p, unpacked(pack(p))));
 }
 
 TEST(RoundTrip, OfStyleThroughNumbersIsExact)
 {
-  for (const char *line : {"plateau", "linear scale 0.1 exponent 1.1 limit_damping yes dtcheck off",
-                           "linear dtcheck error"}) {
+  for (const char *line :
+       {"plateau", "luding", "linear scale 0.1 exponent 1.1 limit_damping yes dtcheck off",
+        "linear dtcheck error"}) {
     int format = 0;
     const StyleArguments style = style_of(line);
     const StyleArguments again = unpack_style(pack(style), format);
@@ -75,6 +79,8 @@ TEST(Format2, IsRead)
   EXPECT_EQ(p.kr, 10.0);
   EXPECT_EQ(p.rolling_viscous, 11.0);
   EXPECT_EQ(p.twisting, TwistingModel::marshall);
+  EXPECT_EQ(p.bound, FrictionBound::adhesive);    // format 3 has it, and depth
+  EXPECT_EQ(p.depth, 0.0);
 }
 
 TEST(Format2, HasLawsAndChecksByNumber)

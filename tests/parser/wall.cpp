@@ -231,7 +231,7 @@ TEST_P(WallMistake, IsNamed)
 #define PLANE COEFF "wall xplane 0 NULL "
 #define UNKNOWN_KEYWORD " is unknown: it must be velocity, wiggle, shear, load, still or contacts"
 const Mistake wall_mistakes[] = {
-    {"", "missing value: law (plateau or linear)"},
+    {"", "missing value: law (plateau, linear or luding)"},
     {"linear", "missing keyword coeff"},
     {"linear wall",
      "keyword 'wall' is unknown: it must be scale, exponent, limit_damping, dtcheck or largest"},
