@@ -2,7 +2,7 @@
 
 // Force against overlap of one contact, from the kernel itself; make_figures.py compiles it.
 //
-//   force_curve plateau|linear n k1 k2 k_adh f0 mu < overlaps > table
+//   force_curve plateau|linear|luding n k1 k2 k_adh f0 mu depth < overlaps > table
 //
 // One line for each overlap: overlap, f_hys, branch (1 loading, 2 unloading, 3 adhesive),
 // delta_max, friction bound, stored normal energy.
@@ -15,12 +15,15 @@
 
 int main(int argc, char **argv)
 {
-  if (argc != 8) {
-    std::fprintf(stderr, "force_curve plateau|linear n k1 k2 k_adh f0 mu < overlaps > table\n");
+  if (argc != 9) {
+    std::fprintf(
+        stderr, "force_curve plateau|linear|luding n k1 k2 k_adh f0 mu depth < overlaps > table\n");
     return 1;
   }
   eepa::LawSettings settings;
-  settings.law = std::strcmp(argv[1], "plateau") == 0 ? eepa::Law::plateau : eepa::Law::linear;
+  settings.law = std::strcmp(argv[1], "plateau") == 0 ? eepa::Law::plateau
+      : std::strcmp(argv[1], "luding") == 0           ? eepa::Law::luding
+                                                      : eepa::Law::linear;
   settings.exponent = std::atof(argv[2]);
   eepa::Parameters p;
   p.k1 = std::atof(argv[3]);
@@ -28,6 +31,7 @@ int main(int argc, char **argv)
   p.k_adh = std::atof(argv[5]);
   p.f0 = std::atof(argv[6]);
   p.mu = std::atof(argv[7]);
+  p.depth = std::atof(argv[8]);
   p.kt_given = true;
   const eepa::Coefficients c = eepa::resolve(p, settings);
 
