@@ -76,7 +76,7 @@ namespace {
     }
   }
 
-  /// With k2 = k1 there is no overlap from which on the stiffness is k2.
+  /// luding needs k2 > k1: with k2 = k1 the limit overlap delta* does not exist.
   void check_luding(Findings &found, const Parameters &p)
   {
     if (p.k2 == p.k1)

@@ -41,7 +41,7 @@ struct LudingLaw {
     // kappa (delta - delta_p); on the loading branch, where m = delta, it is k1 delta to the bit
     Real spring = s * (c.k1 * overlap + hardening * (overlap - remembered));
     const Real pull = s * c.k_adh * overlap;
-    // a contact at rest on the adhesive branch stays there, whatever rounding says
+    // the margin keeps a contact at rest on the adhesive branch there, in spite of rounding
     const Real rounding = 1e-14 * s * (c.k2 + c.k_adh) * overlap;
     const auto adheres = !loads && spring <= rounding - pull;
     if (any(adheres)) {
@@ -75,7 +75,8 @@ struct LudingLaw {
     return m.hardening * m.overlap / m.stiffness;
   }
 
-  /// Recoverable energy: the work of the unloading line from delta_p to delta, and that of f0 from 0.
+  /// Recoverable energy: the work of the unloading line from delta_p to delta, and that of f0 from
+  /// 0.
   /// \param max_overlap  m as force() returned it for this overlap
   /// \return [force length]
   EEPA_FUNCTION static double elastic_energy(const Coefficients &c, const Scale &scale,

@@ -63,7 +63,7 @@ struct GeneralExponent {
   {
     return overlap * std::pow(fraction, 1.0 / c.exponent);
   }
-  /// dp/d(delta); for exponent 1 it is 1, and nobody asks
+  /// dp/d(delta); not needed for exponent 1, where it is 1
   template <class Real>
   EEPA_FUNCTION static Real slope(const Real &overlap, const Coefficients &c,
                                   const ScaleOf<Real> &scale)

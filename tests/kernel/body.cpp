@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-only
-// What a driver gathers is made into the contact that the law sees (contract, sections 1 and 4), one
-// pair at a time and in lanes.
+// SPDX-License-Identifier: GPL-2.0-only Bodies gathered by a driver are turned into the contact
+// that the law sees (contract, sections 1 and 4), one pair at a time and in lanes.
 
 #include "support.h"
 
@@ -80,7 +79,7 @@ TEST(Body, AParticleAndAWallMakeAContact)
   EXPECT_NEAR(c.twist, 1e-3 * (0.6 - 1.6), 1e-17);
 }
 
-// its centre lies within the other one only where the overlap exceeds a radius
+// a centre lies within the other particle only where the overlap exceeds a radius
 TEST(Body, IsTooDeepBeyondTheSmallerRadius)
 {
   EXPECT_FALSE(too_deep(0.9, 1.0));
@@ -97,7 +96,8 @@ Lanes in_lanes(const std::vector<double> &numbers)
   });
 }
 
-/// Of bodies that get larger and faster from lane to lane, the same in each lane as alone.
+/// Checks, for bodies that get larger and faster from lane to lane, that each lane equals the pair
+/// alone.
 template <class Make> void expect_lanes_as_alone(Make &&make)
 {
   const auto grown = [](Body<double> b, double factor) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-only
-// What parameters are resolved into where something is left out, and their defaults.
+// Coefficients resolved from parameters of which some are not given, and defaults of parameters.
 
 #include "support.h"
 
@@ -11,7 +11,7 @@ Coefficients resolved(const Material &m)
   return resolve(m.p, m.law);
 }
 
-// each of them alone: what nobody has given is no force
+// by default no parameter gives a force, each tested alone
 TEST(Parameters, AreNothingByDefault)
 {
   const Parameters p;

@@ -660,8 +660,8 @@ TEST(Energy, LossesAndStoresAddUp)
   EXPECT_EQ(Dissipation().total() + StoredEnergy().total(), 0.0);
 }
 
-// A group takes it away while it is compressed: what it stored a step ago, less the work of the force
-// that it had then
+// A contact that a group takes away while it is compressed loses what it stored a step ago, less
+// the work of the force that it had then
 TEST(Energy, ContactTakenAwayLosesWhatItStoredAStepAgo)
 {
   const double dt = 1e-6, v = -0.5, x = 1e-5;    // compressed further by 5e-7 in this step
@@ -689,8 +689,8 @@ TEST(Energy, ContactTakenAwayLosesWhatItStoredAStepAgo)
   EXPECT_DOUBLE_EQ(lost(), path.opening_loss());
 }
 
-// The dashpot of the step before is handed over from step to step: where nobody has booked that one,
-// its whole work is booked now, not what is left of it
+// Part of a dashpot's work is booked one step later. Where the step before was not booked at all,
+// the whole half of the trapezoid is booked, without the part taken back
 TEST(Energy, DashpotsOfAnUnbookedStepAreBookedWhole)
 {
   Material m = material(Law::linear, 1e3, 1e3, 0.0);
@@ -712,9 +712,9 @@ TEST(Energy, DashpotsOfAnUnbookedStepAreBookedWhole)
   EXPECT_NEAR(step(1e-5, true, true), 0.75 * power, 1e-12 * power);
   EXPECT_NEAR(step(1e-5, false, true), power, 1e-12 * power);
   EXPECT_NEAR(step(1e-5, false, false), 1.25 * power, 1e-12 * power);
-  // what follows a set-up, whose force is not booked either
+  // the same after a set-up, whose force is not booked either
   EXPECT_NEAR(step(0.0, false, true), 1.25 * power, 1e-12 * power);
-  // so does the last part, of a contact that opens
+  // and for the last part, of a contact that opens
   b.overlap = -1e-9;
   b.v_i = Vec3(v, 0.0, 0.0);
   const auto opening = [&](double remembered, bool booked) {
@@ -726,7 +726,7 @@ TEST(Energy, DashpotsOfAnUnbookedStepAreBookedWhole)
   EXPECT_NEAR(opening(0.0, true), 0.5 * power, 1e-12 * power);
 }
 
-// Beyond what it remembers a contact loads
+// Beyond its remembered overlap a contact loads
 TEST(Energy, OfAnOverlapBeyondTheRememberedOneIsThatOfLoading)
 {
   for (const Material &m : materials()) {
@@ -738,7 +738,7 @@ TEST(Energy, OfAnOverlapBeyondTheRememberedOneIsThatOfLoading)
   }
 }
 
-// where it is 0 but for rounding, a difference of nearly equal numbers
+// where the energy is 0 except for rounding, as a difference of nearly equal numbers
 TEST(Energy, IsNeverNegativeForRounding)
 {
   Random random(54);
@@ -754,7 +754,7 @@ TEST(Energy, IsNeverNegativeForRounding)
       at_rest += path.energy(x) == 0.0;
       x = std::nextafter(x, 1.0);
     }
-    // nor is a loss while next to nothing happens
+    // nor is a loss negative over a tiny change
     EXPECT_GE(path.loss(peak, std::nextafter(peak, 1.0)), 0.0);
     EXPECT_GE(path.loss(std::nextafter(peak, 1.0), peak), 0.0);
   }

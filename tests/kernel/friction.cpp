@@ -110,7 +110,7 @@ TEST(Friction, SpringKeepsItsLengthWhenThePlaneTurns)
   EXPECT_EQ(rotate_into_plane(unchanged, Vec3::UnitZ()), unchanged);
 }
 
-// where the plane turns little a series stands for a root: it is as good as one
+// where the plane turns little a series replaces the root, with the same accuracy
 TEST(Friction, RotatedSpringsKeepTheirLengthToTheLastDigit)
 {
   Random random(60);
@@ -128,14 +128,14 @@ TEST(Friction, RotatedSpringsKeepTheirLengthToTheLastDigit)
   EXPECT_LT(std::fabs(sum / springs), 5e-17);
 }
 
-// below the smallest normal number a spring is nothing
+// a spring below the smallest normal number counts as 0
 TEST(Friction, ASpringWithoutADirectionIsNone)
 {
   const Vec3 turned = Vec3(0.6, 0.0, 0.8);
   EXPECT_EQ(rotate_into_plane(Vec3(1e-160, 2e-160, 0.0), Vec3::UnitZ()), Vec3(Vec3::Zero()));
   EXPECT_EQ(rotate_into_plane(Vec3(1e-160, 2e-160, 0.0), turned), Vec3(Vec3::Zero()));
   EXPECT_GT(rotate_into_plane(Vec3(1e-150, 2e-150, 0.0), turned).norm(), 2e-150);
-  // nor what is left of one along the normal
+  // and so does the remainder of a spring along the normal
   EXPECT_EQ(rotate_into_plane(Vec3(1e-160, 0.0, 1e-7), Vec3::UnitZ()), Vec3(Vec3::Zero()));
 }
 

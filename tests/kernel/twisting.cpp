@@ -174,7 +174,7 @@ TEST(Twisting, OpeningLosesTheSpring)
 
 using Twister = ContactLaw<LinearLaw<UnitExponent>, RollingNone, TwistingMarshall>;
 
-// of similar contacts, what is let go goes with s
+// the stiffness of a released spring scales with s
 TEST(Twisting, OpeningOfAScaledContactLosesItsSpring)
 {
   Material m = twister();
@@ -235,7 +235,7 @@ TEST(Twisting, DashpotHeldByASpringIsNotCutAtTheBound)
   EXPECT_NEAR(out.lost.twisting, 0.02 * speed * speed * dt, 1e-6 * 0.02 * speed * speed * dt);
 }
 
-// with the normal of the middle of the step, where velocities belong
+// with the normal of the middle of the step, the time of the velocities
 TEST(Twisting, VelocityIsThatAlongTheNormalOfTheMiddleOfTheStep)
 {
   Contact c{};
@@ -245,8 +245,8 @@ TEST(Twisting, VelocityIsThatAlongTheNormalOfTheMiddleOfTheStep)
   EXPECT_EQ(twisting_velocity(c), 1.0);
 }
 
-/// What the ledger misses until a sphere that spins about the normal of a wall has come to rest, relative
-/// to its kinetic energy.
+/// Error of the ledger until a sphere that spins about the normal of a wall has come to rest,
+/// relative to its kinetic energy.
 double missed_in_twist(const Material &m, double speed, int steps)
 {
   Bodies b;
@@ -271,7 +271,7 @@ double missed_in_twist(const Material &m, double speed, int steps)
   return std::fabs(0.5 * inertia * w * w + stored + lost - start) / start;
 }
 
-// a dashpot and a spring, a slider and a spring, all three: half the step misses a quarter
+// a dashpot and a spring, a slider and a spring, all three: at half the step the error is a quarter
 TEST(Twisting, LedgerClosesThroughSlidingAndDamping)
 {
   struct Case {
