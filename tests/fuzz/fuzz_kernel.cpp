@@ -200,7 +200,9 @@ void live(Bytes &bytes, const Parameters &p, const LawSettings &settings)
     const double round_t = 1e-12 * kt * std::pow(before.tangential_spring.norm() + moved, 2);
     double round_r = 1e-12 * kr * std::pow(before.rolling_spring.norm() + rolled, 2);
     // where the spin is parallel to the normal, what rolls is a rounding error along the normal
-    const double slope = ContactLaw::Normal::Exponent::slope(overlap, c, scale);
+    double slope = 1.0;
+    if constexpr (!ContactLaw::Normal::Exponent::is_unit)
+      slope = ContactLaw::Normal::Exponent::slope(overlap, c, scale);
     const double most_viscous =
         0.4 * std::sqrt(contact.effective_mass * scale.stiffness() * c.k1 * slope) +
         scale.force() * c.rolling_viscous;
