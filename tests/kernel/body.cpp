@@ -52,6 +52,34 @@ TEST(Body, WhatALawDoesNotReadChangesNothingElse)
   expect_contact_of_pair(contact_of<ReadsLittle>(first(), second(), dt));
 }
 
+template <class Rolling, class Twisting> bool reads_spin()
+{
+  using Law = ContactLaw<PlateauLaw, Rolling, Twisting>;
+  const Contact c = contact_of<Law>(first(), second(), dt);
+  return Law::has_couple && deviation(c.angular_velocity, Vec3(4.0, -1.0, -7.0)) < 1e-15;
+}
+template <class Normal, class Rolling, class Twisting> bool reads_radius()
+{
+  using Law = ContactLaw<Normal, Rolling, Twisting>;
+  const Contact c = contact_of<Law>(first(), second(), dt);
+  return Law::reads_effective_radius && c.effective_radius == 3.0 / 3.5;
+}
+
+// each of what reads them is enough
+TEST(Body, HasTheSpinAndTheRadiusThatALawReads)
+{
+  EXPECT_TRUE((reads_spin<RollingConstant, TwistingNone>()));
+  EXPECT_TRUE((reads_spin<RollingSds, TwistingNone>()));
+  EXPECT_TRUE((reads_spin<RollingNone, TwistingMarshall>()));
+  EXPECT_TRUE((reads_radius<PlateauLaw, RollingConstant, TwistingNone>()));
+  EXPECT_TRUE((reads_radius<PlateauLaw, RollingNone, TwistingMarshall>()));
+  EXPECT_TRUE((reads_radius<LudingLaw, RollingNone, TwistingNone>()));
+  using Least = ContactLaw<PlateauLaw, RollingNone, TwistingNone>;
+  EXPECT_FALSE(Least::has_couple);
+  EXPECT_FALSE(Least::reads_effective_radius);
+  EXPECT_FALSE((ContactLaw<LinearLaw<UnitExponent>, RollingNone>::reads_effective_radius));
+}
+
 TEST(Body, IsAtRestInASetUp)
 {
   const Contact c = contact_of(first(), second(), 0.0);

@@ -58,6 +58,10 @@ def copy_project(root, to, but=()):
                     continue
                 os.makedirs(os.path.dirname(copy), exist_ok=True)
                 shutil.copy(source, copy)
+        for folder, _, files in os.walk(os.path.join(to, name)):
+            for copy in (os.path.join(folder, file) for file in files if file[-2:] != ".o"):
+                if not os.path.exists(os.path.join(root, os.path.relpath(copy, to))):
+                    os.remove(copy)    # has gone
 
 
 class Verdict:
@@ -97,18 +101,19 @@ class Bench:
         tree = os.path.join(self.work, "all")
         copy_project(self.root, tree, but=sources)
         write(os.path.join(tree, "mutant.h"), read(os.path.join(HERE, "mutant.h")))
-        self._configure(tree, "-O1 " + FLAGS, "-D",
-                        "CMAKE_PROJECT_INCLUDE=" + os.path.join(HERE, "together.cmake"))
         head = f'#include "{tree}/mutant.h"\n'
         for site in sites:
             site.frozen = site.frozen or site.mutants[0].key in self.memory.refused
-        for _ in range(10):
+        for attempt in range(10):
             number_all(sites)
             self.schemata = {}
             for path, text in sources.items():
                 copy = os.path.join(tree, os.path.relpath(path, self.root))
                 self.schemata[copy] = Schemata(path, text, sites, softened, head)
                 write(copy, self.schemata[copy].text)
+            if attempt == 0:
+                self._configure(tree, "-O1 " + FLAGS, "-D",
+                                "CMAKE_PROJECT_INCLUDE=" + os.path.join(HERE, "together.cmake"))
             done = run(["cmake", "--build", os.path.join(tree, "build"), "--parallel",
                         str(self.jobs), "--target", *self.programs, "--", "-k", "0"])
             if done.returncode == 0:
@@ -254,7 +259,7 @@ class Bench:
                         [self._compile(file)[0], file + ".o", *objects, "-o", alone,
                          "-lgtest_main", "-lgtest", "-pthread"]).returncode:
                     return Verdict("stillborn")
-                done = run([alone, "--gtest_break_on_failure", "--gtest_color=no"], timeout=120,
+                done = run([alone, "--gtest_break_on_failure", "--gtest_color=no"], timeout=900,
                            env={**os.environ, "EEPA_SOURCE_DIR": self.root})
                 if done.returncode:
                     return self._killed(mutant, done.stdout)
