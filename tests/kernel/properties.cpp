@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // Properties that hold anywhere in the parameter space: stiffness over 12 decades, restitution 0 to
-// 1, n from 1 to 2, size ratios to 100, both laws, every rolling model, walls, scaling.
+// 1, n from 1 to 2, size ratios to 100, every law, every rolling model, walls, scaling.
 
 #include "support.h"
 

@@ -4,6 +4,8 @@
 
 #include "packing.h"
 
+#include <eepa_commands/parameter_table.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -444,8 +446,8 @@ TEST_F(RestartMismatch, OfTheFormatIsRefused)
 {
   write("");
   std::string bytes = file.text();
-  // the package's format number, 2.0, comes before the law, the exponent and scale: 2 1 1 0
-  const double settings[] = {2.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0};
+  // the package's format comes before the law, the exponent and scale: 1 1 0
+  const double settings[] = {eepa::restart_format, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0};
   const std::string before(reinterpret_cast<const char *>(settings), sizeof(settings));
   const auto at = bytes.find(before);
   ASSERT_NE(at, std::string::npos);
@@ -454,7 +456,8 @@ TEST_F(RestartMismatch, OfTheFormatIsRefused)
   std::ofstream(file.name(), std::ios::binary) << bytes;
   Simulation restarted;
   EXPECT_TRUE(refuses(restarted, "read_restart " + file.name(),
-                      "the restart file has format 7 of gran/eepa, this version reads 2"));
+                      "the restart file has format 7 of gran/eepa, this version reads 2 to " +
+                          std::to_string(eepa::restart_format)));
 }
 
 // write_data keeps the coefficients, given and mixed, but no histories, as with LAMMPS's own

@@ -130,6 +130,15 @@ TEST(RestartLaw, ThatIsAnotherOneIsSaid)
                             " contacts have histories of the law linear with exponent 1 and go on "
                             "with plateau and exponent 1"),
             std::string::npos);
+  const ScratchFile hardening(".log");
+  {
+    Simulation restarted(MPI_COMM_WORLD, hardening.name());
+    restarted(read(original.file) +
+              "pair_style gran/eepa luding\n"
+              "pair_coeff * * 1e4 2e4 5e3 -1 0.3 depth 0.01\nrun 0 post no");
+  }
+  EXPECT_NE(hardening.text().find("of the law linear with exponent 1 and go on with luding"),
+            std::string::npos);
   const ScratchFile quiet(".log");
   {
     Simulation restarted(MPI_COMM_WORLD, quiet.name());
