@@ -7,6 +7,7 @@
 
 #include <eepa/vector.h>
 
+#include <array>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -23,6 +24,15 @@ struct FoundContact {
   int i, j;
   int *status;        ///< see eepa::ContactStatus
   double *history;    ///< see eepa::HistoryIndex
+};
+
+/// Contacts with the same coefficients that wait for others until they are worth a call: where
+/// particles have many types, a block holds few of each pair of types, and lanes would run empty.
+struct ContactQueue {
+  static constexpr int size = 32;
+
+  std::array<FoundContact, size> contacts;
+  int count = 0;
 };
 
 /// Force of a contact on a particle that another slice writes.
@@ -48,19 +58,19 @@ struct ContactSlice {
   int first_atom = 0, atom_count = 0;    // range of atoms whose forces only this slice writes
   int deferrable = 0;                    // forces are deferred for atoms below this index
   std::vector<TouchingPair> touching;
-  std::vector<FoundContact> contacts, sorted;    // of a block; sorted by coefficients
-  std::vector<int> class_begin;                  // of each class of coefficients among the sorted
-  std::vector<DeferredForce> deferred;           // forces on atoms of other slices
-  EnergyLedger ledger;                           // of this force call
-  AtomLosses *atom_losses = nullptr;             // where they are kept
+  std::vector<FoundContact> contacts;     // of a block
+  std::vector<ContactQueue> queues;       // one a class of coefficients, where there are several
+  std::vector<DeferredForce> deferred;    // forces on atoms of other slices
+  EnergyLedger ledger;                    // of this force call
+  AtomLosses *atom_losses = nullptr;      // where they are kept
   std::vector<DeferredLoss> deferred_losses;
-  int deep_i = -1, deep_j = -1;                  // a contact deeper than a radius, if there is one
+  int deep_i = -1, deep_j = -1;    // a contact deeper than a radius, if there is one
 
   double memory_usage() const
   {
-    return static_cast<double>(touching.capacity() * sizeof(TouchingPair) +
-                               (contacts.capacity() + sorted.capacity()) * sizeof(FoundContact) +
-                               deferred.capacity() * sizeof(DeferredForce));
+    return static_cast<double>(
+        touching.capacity() * sizeof(TouchingPair) + contacts.capacity() * sizeof(FoundContact) +
+        queues.capacity() * sizeof(ContactQueue) + deferred.capacity() * sizeof(DeferredForce));
   }
   bool writes(int atom) const
   {

@@ -180,8 +180,7 @@ class PairGranEepa : public Pair {
   void work_through(ContactSlice &);
   void open_contact(ContactSlice &, int i, int place);
   void evaluate_block(ContactSlice &, int count);
-  int drop_held_pairs(ContactSlice &, int count) const;
-  void sort_by_class(ContactSlice &, int count) const;
+  void evaluate_queue(ContactSlice &, int which);
   /// Evaluates contacts of one pair of types.
   void evaluate(ContactSlice &, const FoundContact *, int count, const eepa::Coefficients &);
   void evaluate_scalar(ContactSlice &, const FoundContact &, const eepa::Coefficients &);

@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
 
 using namespace LAMMPS_NS;
 using eepa::Vec3;
@@ -186,6 +185,10 @@ void PairGranEepa::work_through(ContactSlice &slice)
   slice.atom_losses = keep_atom_losses ? &atom_losses : nullptr;
   slice.deferred_losses.clear();
   slice.deep_i = slice.deep_j = -1;
+  const std::size_t classes = coefficient_classes.size();
+  slice.queues.resize(classes > 1 ? classes : 0);
+  // an error may have ended the force call before this one
+  for (ContactQueue &queue : slice.queues) queue.count = 0;
   const NeighborRows rows = rows_of(*list, *fix_history);
   const ParticleArrays p = particles;
   const ForceArrays f = forces;
@@ -230,6 +233,8 @@ void PairGranEepa::work_through(ContactSlice &slice)
     }
   }
   evaluate_block(slice, static_cast<int>(count));
+  for (std::size_t which = 0; which < slice.queues.size(); which++)
+    evaluate_queue(slice, static_cast<int>(which));
 }
 
 void PairGranEepa::open_contact(ContactSlice &slice, int i, int place)
@@ -247,52 +252,52 @@ void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
   const NeighborRows rows = rows_of(*list, *fix_history);
   const ParticleArrays p = particles;
   const ForceArrays f = forces;
-  const int size = history_size();
-  if (static_cast<int>(slice.contacts.size()) < count) slice.contacts.resize(count);
-  const TouchingPair *touching = slice.touching.data();
-  FoundContact *found = slice.contacts.data();
-  for (int n = 0; n < count; n++) {
-    const int i = touching[n].i, place = touching[n].place;
-    const FoundContact contact = {i, rows.neighbors[i][place] & NEIGHMASK, rows.status[i] + place,
-                                  rows.history[i] + static_cast<std::ptrdiff_t>(size) * place};
+  const std::ptrdiff_t size = history_size();
+  TouchingPair *touching = slice.touching.data();
+  const auto partner_of = [=](TouchingPair pair) EEPA_LAMBDA {
+    return rows.neighbors[pair.i][pair.place] & NEIGHMASK;
+  };
+  const auto look_up = [=](TouchingPair pair, int j, FoundContact &contact) EEPA_LAMBDA {
+    contact.i = pair.i;
+    contact.j = j;
+    contact.status = rows.status[pair.i] + pair.place;
+    contact.history = rows.history[pair.i] + size * pair.place;
     prefetch_written(contact.history);
-    prefetch_partner(contact.j, p, f);
-    found[n] = contact;
+    prefetch_partner(j, p, f);
+  };
+  // pairs that can not move each other are no contacts: what they have of a history stays as it is
+  if (masses.holds_some()) {
+    const auto is_held = [this, partner_of](TouchingPair pair) {
+      return masses.hold_together(pair.i, partner_of(pair));
+    };
+    count = static_cast<int>(std::remove_if(touching, touching + count, is_held) - touching);
   }
-  if (masses.holds_some()) count = drop_held_pairs(slice, count);
-  if (coefficient_classes.size() == 1) {
-    evaluate(slice, slice.contacts.data(), count, coefficient_classes.front());
+  if (slice.queues.empty()) {
+    if (static_cast<int>(slice.contacts.size()) < count) slice.contacts.resize(count);
+    FoundContact *found = slice.contacts.data();
+    for (int n = 0; n < count; n++) look_up(touching[n], partner_of(touching[n]), found[n]);
+    evaluate(slice, found, count, coefficient_classes.front());
     return;
   }
-  sort_by_class(slice, count);
-  for (std::size_t c = 0; c < coefficient_classes.size(); c++)
-    evaluate(slice, slice.sorted.data() + slice.class_begin[c],
-             slice.class_begin[c + 1] - slice.class_begin[c], coefficient_classes[c]);
+  // lanes have one set of coefficients
+  const int *type = atom->type, *class_of = class_of_pair.data();
+  const int types = ntypes_allocated + 1;
+  ContactQueue *queues = slice.queues.data();
+  for (int n = 0; n < count; n++) {
+    const int j = partner_of(touching[n]);
+    const int which = class_of[type[touching[n].i] * types + type[j]];
+    ContactQueue &queue = queues[which];
+    look_up(touching[n], j, queue.contacts[queue.count]);
+    if (++queue.count == ContactQueue::size) evaluate_queue(slice, which);
+  }
 }
 
-/// Pairs that can not move each other are no contacts: what they have of a history stays as it is.
-int PairGranEepa::drop_held_pairs(ContactSlice &slice, int count) const
+void PairGranEepa::evaluate_queue(ContactSlice &slice, int which)
 {
-  const auto first = slice.contacts.begin();
-  return static_cast<int>(std::remove_if(first, first + count,
-                                         [this](const FoundContact &contact) {
-                                           return masses.hold_together(contact.i, contact.j);
-                                         }) -
-                          first);
-}
-
-void PairGranEepa::sort_by_class(ContactSlice &slice, int count) const
-{
-  const auto class_of = [this](const FoundContact &contact) {
-    return class_of_pair[pair_index(atom->type[contact.i], atom->type[contact.j])];
-  };
-  // counted one place on, so that the ends of the classes become their beginnings below
-  slice.class_begin.assign(coefficient_classes.size() + 2, 0);
-  for (int n = 0; n < count; n++) slice.class_begin[class_of(slice.contacts[n]) + 2]++;
-  std::partial_sum(slice.class_begin.begin(), slice.class_begin.end(), slice.class_begin.begin());
-  if (static_cast<int>(slice.sorted.size()) < count) slice.sorted.resize(count);
-  for (int n = 0; n < count; n++)
-    slice.sorted[slice.class_begin[class_of(slice.contacts[n]) + 1]++] = slice.contacts[n];
+  ContactQueue &queue = slice.queues[which];
+  if (queue.count == 0) return;
+  evaluate(slice, queue.contacts.data(), queue.count, coefficient_classes[which]);
+  queue.count = 0;
 }
 
 /* ---------------------------------------------------------------------- evaluating them */
