@@ -293,6 +293,31 @@ TEST(Types, EachPairHasItsOwnCoefficients)
   EXPECT_NEAR(p[4].f.y(), -1e4 * 0.01, 1e-8);
 }
 
+// Contacts wait in a queue for others with the same coefficients. Five types whose frictions differ
+// in the twelfth digit have fifteen queues. In this packing ten of them are filled three times and
+// left with a rest. The particles move as those of one type, which need no queue.
+TEST(Types, ManyTypesMoveAsOneOfNearlyTheSameCoefficients)
+{
+  Packing packing;
+  packing.types = 5;
+  packing.side = 7;
+  packing.polydisperse = true;
+  const std::string style = "pair_style gran/eepa linear\n";
+  const std::string stiffness = " 1e4 2e4 5e3 -1 ",
+                    more = " restitution 0.8 rolling constant 0.1\n";
+  std::string many = style;
+  for (int type = 1; type <= packing.types; type++)
+    many += "pair_coeff " + std::to_string(type) + " " + std::to_string(type) + stiffness +
+        exact(0.5 + 1e-12 * type) + more;
+  for (const char *newton : {"on", "off"}) {
+    const auto of_one =
+        run_packing(packing, style + "pair_coeff * *" + stiffness + "0.5" + more, 100, newton);
+    const auto of_many = run_packing(packing, many, 100, newton);
+    EXPECT_LT(difference(of_one, of_many), 1e-8) << newton;
+    EXPECT_GT(difference(of_one, of_many), 0.0) << "the types had one queue";
+  }
+}
+
 // Two particles that touch through two images have one history, which LAMMPS keeps by ID.
 TEST(NarrowBox, WarnsOfABoxThatIsNarrowerThanTwoDiameters)
 {
