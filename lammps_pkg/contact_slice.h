@@ -16,7 +16,7 @@ namespace LAMMPS_NS {
 /// overwritten by the next one.
 struct TouchingPair {
   int i;
-  int place;    ///< slot of j among the neighbours of i
+  int slot;    ///< of j among the neighbours of i
 };
 
 /// A pair that touches, with the data of the contact looked up.
@@ -26,8 +26,8 @@ struct FoundContact {
   double *history;    ///< see eepa::HistoryIndex
 };
 
-/// Contacts with the same coefficients that wait for others until they are worth a call: where
-/// particles have many types, a block holds few of each pair of types, and lanes would run empty.
+/// Contacts with the same coefficients, gathered over several blocks. Where particles have many types,
+/// one block holds few contacts of each class of coefficients, and lanes would run empty.
 struct ContactQueue {
   static constexpr int size = 32;
 

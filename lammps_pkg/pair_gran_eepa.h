@@ -178,7 +178,7 @@ class PairGranEepa : public Pair {
   /// Evaluates the contacts of all slices of the neighbour list.
   virtual void work_through_list();
   void work_through(ContactSlice &);
-  void open_contact(ContactSlice &, int i, int place);
+  void open_contact(ContactSlice &, int i, int slot);
   void evaluate_block(ContactSlice &, int count);
   void evaluate_queue(ContactSlice &, int which);
   /// Evaluates contacts of one pair of types.

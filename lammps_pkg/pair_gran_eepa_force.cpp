@@ -237,12 +237,12 @@ void PairGranEepa::work_through(ContactSlice &slice)
     evaluate_queue(slice, static_cast<int>(which));
 }
 
-void PairGranEepa::open_contact(ContactSlice &slice, int i, int place)
+void PairGranEepa::open_contact(ContactSlice &slice, int i, int slot)
 {
   const int size = history_size();
-  double *values = fix_history->firstvalue[i] + static_cast<std::ptrdiff_t>(size) * place;
-  if (request.wants_losses) book_opening(slice, i, list->firstneigh[i][place], values);
-  fix_history->firstflag[i][place] = eepa::ContactStatus::none;
+  double *values = fix_history->firstvalue[i] + static_cast<std::ptrdiff_t>(size) * slot;
+  if (request.wants_losses) book_opening(slice, i, list->firstneigh[i][slot], values);
+  fix_history->firstflag[i][slot] = eepa::ContactStatus::none;
   // histories of pairs that do not touch are always 0, so that a new contact needs no test
   std::fill_n(values, size, 0.0);
 }
@@ -255,17 +255,17 @@ void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
   const std::ptrdiff_t size = history_size();
   TouchingPair *touching = slice.touching.data();
   const auto partner_of = [=](TouchingPair pair) EEPA_LAMBDA {
-    return rows.neighbors[pair.i][pair.place] & NEIGHMASK;
+    return rows.neighbors[pair.i][pair.slot] & NEIGHMASK;
   };
   const auto look_up = [=](TouchingPair pair, int j, FoundContact &contact) EEPA_LAMBDA {
     contact.i = pair.i;
     contact.j = j;
-    contact.status = rows.status[pair.i] + pair.place;
-    contact.history = rows.history[pair.i] + size * pair.place;
+    contact.status = rows.status[pair.i] + pair.slot;
+    contact.history = rows.history[pair.i] + size * pair.slot;
     prefetch_written(contact.history);
     prefetch_partner(j, p, f);
   };
-  // pairs that can not move each other are no contacts: what they have of a history stays as it is
+  // pairs that can not move each other are no contacts, and their histories stay as they are
   if (masses.holds_some()) {
     const auto is_held = [this, partner_of](TouchingPair pair) {
       return masses.hold_together(pair.i, partner_of(pair));
@@ -314,8 +314,8 @@ void PairGranEepa::evaluate_scalar(ContactSlice &slice, const FoundContact &foun
                                    const eepa::Coefficients &c)
 {
   const int i = found.i, j = found.j;
-  const int place = static_cast<int>(found.status - fix_history->firstflag[i]);
-  const double factor = force->special_lj[sbmask(list->firstneigh[i][place])];
+  const int slot = static_cast<int>(found.status - fix_history->firstflag[i]);
+  const double factor = force->special_lj[sbmask(list->firstneigh[i][slot])];
   if (factor == 0.0) return;
 
   const eepa::Contact contact =
