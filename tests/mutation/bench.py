@@ -213,7 +213,7 @@ class Bench:
         tree = os.path.join(self.work, "one")
         if not hasattr(self, "commands"):
             copy_project(self.root, tree)
-            self._configure(tree, "-O0 " + FLAGS)
+            self._configure(tree, "-O1 " + FLAGS)
             self.commands = {}
             for entry in json.loads(read(os.path.join(tree, "build/compile_commands.json"))):
                 self.commands[entry["file"]] = entry["command"]
