@@ -20,7 +20,7 @@ BRANCHES = ("loading", "unloading", "adhesive", "sliding", "mixed")
 OPERATIONS = ("additions", "multiplications", "divisions", "roots", "powers", "comparisons")
 
 # What a driver does for a contact before and after the law, counted by hand from
-# particle_contact.h and the pair style's loop: (additions, multiplications, divisions, roots).
+# body.h and the pair style's loop: (additions, multiplications, divisions, roots).
 DRIVER: Sequence[Tuple[str, Tuple[int, int, int, int]]] = (
     ("offset, squared distance, reach", (6, 4, 0, 0)),
     ("distance, overlap, normal", (1, 3, 1, 1)),
