@@ -28,12 +28,12 @@ DRIVER: Sequence[Tuple[str, Tuple[int, int, int, int]]] = (
     ("relative velocity", (3, 0, 0, 0)),
     ("lever arms, spin", (5, 8, 0, 0)),
     ("forces on i and j", (6, 0, 0, 0)),
-    ("torques on i and j", (6, 6, 0, 0)),
+    ("turn and twist", (10, 14, 0, 0)),
+    ("torques on i and j", (6, 0, 0, 0)),
 )
 DRIVER_ROLLING: Sequence[Tuple[str, Tuple[int, int, int, int]]] = (
     ("relative angular velocity", (3, 0, 0, 0)),
     ("effective radius", (1, 1, 1, 0)),
-    ("rolling torque on i and j", (6, 0, 0, 0)),
 )
 
 
