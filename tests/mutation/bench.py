@@ -219,9 +219,9 @@ class Bench:
                 self.commands[entry["file"]] = entry["command"]
             self._parse_once(tree)
             # the commands do not read what a frozen mutant of the kernel is in
-            self.library = [file + ".o" for file in self.commands
-                            if os.path.relpath(file, tree).startswith("commands")
-                            and self._object(file, tree)]
+            self.command_objects = [file + ".o" for file in self.commands
+                                    if os.path.relpath(file, tree).startswith("commands")
+                                    and self._object(file, tree)]
         path = os.path.join(tree, os.path.relpath(mutant.site.path, self.root))
         write(path, with_one(mutant.site.source, mutant))
         try:
@@ -252,7 +252,7 @@ class Bench:
             support = [f for f in files if f not in with_tests] + library * in_library
             if not all(self._object(file, tree) for file in support):
                 return Verdict("stillborn")
-            objects = [file + ".o" for file in support] + self.library * (not in_library)
+            objects = [file + ".o" for file in support] + self.command_objects * (not in_library)
             for file in sorted(with_tests, key=lambda f: _promise(f, last, mutant.function)):
                 alone = os.path.join(tree, "alone")
                 if not self._object(file, tree) or run(
