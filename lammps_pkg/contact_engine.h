@@ -21,6 +21,13 @@ struct StepRequest {
   bool wants_energy = false;    ///< compute StoredEnergy
   bool wants_losses = false;    ///< compute Dissipation of the step
   bool booked = true;           ///< whether the step before was booked: see dissipation_of_step()
+
+  /// The request of a force call.
+  /// \param in_step  in a time step, else in a set-up
+  static StepRequest of_call(bool in_step, double dt, bool keep_ledger, bool ledger_starts)
+  {
+    return {in_step ? dt : 0.0, in_step, keep_ledger, keep_ledger && in_step, !ledger_starts};
+  }
 };
 
 /// Result of a force call for one contact.

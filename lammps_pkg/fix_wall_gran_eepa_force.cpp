@@ -50,11 +50,7 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   atom_losses.clear();
   if (keep_ledger) atom_losses = ComputeGranEepaEnergyAtom::find(modify);
   const bool step = update->setupflag == 0;
-  request.advance = step;
-  request.time_step = step ? dt : 0.0;
-  request.wants_energy = keep_ledger;
-  request.wants_losses = keep_ledger && step;
-  request.booked = !ledger_starts;
+  request = StepRequest::of_call(step, dt, keep_ledger, ledger_starts);
   for (const int i : candidates) meet(i);
   after_setup = !step;
   if (step) ledger_starts = false;
@@ -107,7 +103,7 @@ void FixWallGranEepa::collect_candidates()
   for (int i = 0; i < atom->nlocal; i++) {
     bool known = false;
     for (int surface = 0; surface < n_surfaces; surface++)
-      known |= history[i][surface * history_size + eepa::MAX_OVERLAP] != 0.0;
+      known |= history_of(i, surface)[eepa::MAX_OVERLAP] != 0.0;
     if (known || surfaces.near(atom->x[i], atom->radius[i] + margin)) candidates.push_back(i);
   }
   if (contact_table && atom->nlocal > 0)

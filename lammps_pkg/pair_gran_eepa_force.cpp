@@ -45,15 +45,11 @@ void PairGranEepa::compute(int eflag, int vflag)
   }
   particles = particle_arrays();
   forces = {atom->f[0], atom->torque[0]};
-  request.advance = update->setupflag == 0;
-  request.time_step = request.advance ? dt : 0.0;
-  request.wants_energy = eflag_either || keep_ledger;
-  request.wants_losses = keep_ledger && request.advance;
-  request.booked = !ledger_starts;
+  request = StepRequest::of_call(update->setupflag == 0, dt, keep_ledger, ledger_starts);
+  request.wants_energy |= eflag_either != 0;
   in_lanes = !evflag && !keep_ledger && request.advance && !bonds_weaken_contacts();
   fix_history->force_is_computed();
-  keep_atom_losses =
-      keep_ledger && update->setupflag == 0 && !ComputeGranEepaEnergyAtom::find(modify).empty();
+  keep_atom_losses = request.wants_losses && !ComputeGranEepaEnergyAtom::find(modify).empty();
   if (keep_atom_losses) atom_losses.start(atom->nlocal + atom->nghost);
   ledger.elastic = eepa::StoredEnergy();
   work_through_list();
