@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_WALLS_SHAPE_H
+#define EEPA_WALLS_SHAPE_H
+
+#include <eepa/vector.h>
+
+#include <vector>
+
+namespace eepa {
+
+/// A place where a sphere and a shape touch or nearly touch: the point of one face that is nearest to the
+/// sphere's centre.
+struct SurfacePoint {
+  int face = 0;              ///< which contact of the sphere this is, see Shape
+  Vec3 normal;               ///< unit vector from the surface to the centre
+  double distance = 0.0;     ///< of the centre; negative behind the one face of a half space [length]
+  /// Change of the normal with the motion of the centre along the surface: 0 at a flat face, 1/distance
+  /// at an edge or a corner, 1/r outside of a cylinder, -1/r inside [1/length]
+  double curvature = 0.0;
+  Vec3 straight;             ///< unit vector along which the normal stays the same, or 0
+
+  /// du/dt while the centre moves [1/time]
+  /// \param velocity  of the centre relative to the shape [length/time]
+  Vec3 normal_rate(const Vec3 &velocity) const
+  {
+    const Vec3 along = velocity - dot(velocity, normal) * normal;
+    return curvature * (along - dot(along, straight) * straight);
+  }
+};
+
+/// A surface that spheres touch, fixed in a frame of its own. It knows geometry only: no law, no
+/// motion and no histories.
+///
+/// A sphere can touch a shape at several places. Each contact is named by the number of a face, so
+/// that it is found again in the next step. A face has at most one contact with a sphere.
+class Shape {
+ public:
+  virtual ~Shape() = default;
+
+  /// Finds what may touch a sphere, as long as its centre stays within a distance of the given one.
+  /// \param reach  radius of the sphere and that distance [length]
+  /// \param[in,out] pieces  receives the numbers of pieces of the surface, for visit()
+  /// \return whether there may be a contact; `pieces` may stay empty even so
+  virtual bool collect(const Vec3 &centre, double reach, std::vector<int> &pieces) const = 0;
+
+  /// Finds all contacts of a sphere: places nearer than its radius.
+  /// \param pieces, count  as collect() gave them for this sphere
+  /// \param[in,out] found  receives them, in an order that depends on the sphere and the shape only
+  virtual void visit(const Vec3 &centre, double radius, const int *pieces, int count,
+                     std::vector<SurfacePoint> &found) const = 0;
+
+  /// The point of a face that is nearest to a centre, at any distance.
+  virtual SurfacePoint nearest(int face, const Vec3 &centre) const = 0;
+
+  /// Whether a contact that was at `face` is the one that is at `now` in this step, because the sphere
+  /// slides or rolls from one face to the next one.
+  virtual bool continues(int face, const SurfacePoint &now, const Vec3 & /*centre*/) const
+  {
+    return face == now.face;
+  }
+
+  /// Whether a centre that moves in a straight line gets from one side of the surface to the other.
+  virtual bool is_between(const Vec3 &before, const Vec3 &now) const = 0;
+
+  /// Largest distance of the surface from an axis, infinity where it has none. A rotation about the
+  /// axis moves no point further than that times the angle.
+  /// \param axis  unit vector
+  virtual double extent(const Vec3 &point, const Vec3 &axis) const = 0;
+
+  /// Whether a number of a face, read from a file, is one of this shape.
+  virtual bool has_face(int face) const = 0;
+};
+
+}    // namespace eepa
+
+#endif
