@@ -4,11 +4,15 @@
 
 #include "fix_wall_gran_eepa.h"
 
+#include "face_loads.h"
 #include "find_contact_owners.h"
+#include "region_shape.h"
 #include "run_guards.h"
 
 #include <eepa/history.h>
 #include <eepa/time_step.h>
+#include <eepa_walls/cylinder.h>
+#include <eepa_walls/planes.h>
 
 #include "atom.h"
 #include "comm.h"
@@ -26,7 +30,7 @@
 using namespace LAMMPS_NS;
 
 FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), masses(lmp), surface_sums{}, output_vector{}
+    Fix(lmp, narg, arg), masses(lmp), sums{}, output_vector{}
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR,
@@ -47,21 +51,27 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   style = typed.style;
   parameters = typed.parameters;
   coefficients = eepa::resolve(parameters, style.settings);
-  static_cast<eepa::WallShape &>(surfaces) = typed.shape;
-  require_walls_in_the_box();
-  initial_position = {surfaces.lo, surfaces.hi};
+  typed_shape = typed.shape;
+  initial_position = typed_shape.has_lo ? typed_shape.lo : typed_shape.hi;
   contact_table = typed.contact_table;
-  place_surfaces();
+  about = typed.about;
+  require_walls_in_the_box();
+  make_shape();
   change_motion(typed.motion);
 
   create_attribute = 1;
   restart_peratom = 1;
   restart_global = 1;
   time_integrate = 0;
+  scalar_flag = 1;
   vector_flag = 1;
   size_vector = N_VECTOR;
   global_freq = 1;
+  extscalar = 1;
   extvector = 0;
+  energy_global_flag = 1;
+  virial_global_flag = virial_peratom_flag = 1;
+  maxexchange_dynamic = 1;
   dynamic_group_allow = 1;
   peratom_flag = contact_table ? 1 : 0;
   if (contact_table) {
@@ -70,9 +80,16 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   }
   engine = make_contact_engine(style.settings, parameters.rolling, parameters.twisting);
   history_size = engine->history_size();
-  n_values = history_size * surfaces.count();
-  maxexchange = n_values;
+  maxexchange = 1;
   dt = update->dt;
+  if (typed.face_interval > 0) {
+    nevery = local_freq = typed.face_interval;
+    local_flag = 1;
+    size_local_cols = FaceLoads::N_COLUMNS;
+    face_loads->sum(world);
+    size_local_rows = face_loads->row_count();
+    array_local = face_loads->rows();
+  }
 
   FixWallGranEepa::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
@@ -80,18 +97,43 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   for (int i = 0; i < atom->nlocal; i++) FixWallGranEepa::set_arrays(i);
 }
 
-/// A wall can not lie across a periodic dimension.
+/// A plane or a cylinder can not lie across a periodic dimension.
 void FixWallGranEepa::require_walls_in_the_box() const
 {
-  if (!surfaces.is_plane()) {
+  if (typed_shape.kind == eepa::WallShape::zcylinder) {
     if (domain->xperiodic || domain->yperiodic)
       error->all(FLERR,
                  "fix {} wall/gran/eepa: wall zcylinder can not be used where x or y is periodic",
                  id);
-  } else if (domain->periodicity[surfaces.axis()]) {
+  } else if (typed_shape.is_plane() && domain->periodicity[typed_shape.axis()]) {
     error->all(FLERR, "fix {} wall/gran/eepa: wall {} can not be used where {} is periodic", id,
-               surfaces.kind_name(), surfaces.kind_name()[0]);
+               typed_shape.kind_name(), typed_shape.kind_name()[0]);
   }
+}
+
+void FixWallGranEepa::make_shape()
+{
+  if (typed_shape.is_plane()) {
+    shape = std::make_unique<eepa::Planes>(typed_shape.axis(), typed_shape.has_lo,
+                                           typed_shape.has_hi, typed_shape.lo, typed_shape.hi);
+  } else if (typed_shape.kind == eepa::WallShape::zcylinder) {
+    shape = std::make_unique<eepa::Cylinder>(typed_shape.radius);
+  } else if (typed_shape.kind == eepa::WallShape::region) {
+    auto of_region = std::make_unique<RegionShape>(find_region());
+    region_shape = of_region.get();
+    shape = std::move(of_region);
+  } else {
+    error->all(FLERR, "fix {} wall/gran/eepa: wall mesh is not there yet", id);
+  }
+}
+
+Region *FixWallGranEepa::find_region() const
+{
+  Region *region = domain->get_region_by_id(typed_shape.region_id);
+  if (!region)
+    error->all(FLERR, "fix {} wall/gran/eepa: wall region {} does not exist", id,
+               typed_shape.region_id);
+  return region;
 }
 
 FixWallGranEepa::~FixWallGranEepa()
@@ -99,7 +141,6 @@ FixWallGranEepa::~FixWallGranEepa()
   if (copymode) return;
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
-  memory->destroy(history);
   if (contact_table) memory->destroy(array_atom);
 }
 
@@ -108,7 +149,8 @@ FixWallGranEepa::~FixWallGranEepa()
 int FixWallGranEepa::setmask()
 {
   // fix_modify may set a load between any two runs
-  return FixConst::INITIAL_INTEGRATE | FixConst::POST_FORCE | FixConst::FINAL_INTEGRATE;
+  return FixConst::INITIAL_INTEGRATE | FixConst::POST_FORCE | FixConst::FINAL_INTEGRATE |
+      (face_loads ? FixConst::END_OF_STEP : 0);
 }
 
 void FixWallGranEepa::init()
@@ -116,6 +158,7 @@ void FixWallGranEepa::init()
   dt = update->dt;
   require_force_once_a_step(lmp, style_name());
   warn_of_rotation();
+  if (region_shape) region_shape->set_region(find_region());
   masses.init("fix wall/gran/eepa");
   const bool kept = keep_ledger;
   keep_ledger = EnergyLedger::wanted(modify);
@@ -220,43 +263,12 @@ void FixWallGranEepa::complain(const std::string &message)
     error->warning(FLERR, message);
 }
 
-/* ---------------------------------------------------------------------- per-atom arrays */
-
-void FixWallGranEepa::grow_arrays(int nmax)
-{
-  memory->grow(history, nmax, n_values, "wall/gran/eepa:history");
-  if (contact_table)
-    memory->grow(array_atom, nmax, static_cast<int>(N_ATOM), "wall/gran/eepa:array_atom");
-}
-
-void FixWallGranEepa::copy_arrays(int i, int j, int /*delflag*/)
-{
-  std::copy_n(history[i], n_values, history[j]);
-  if (contact_table) std::copy_n(array_atom[i], static_cast<int>(N_ATOM), array_atom[j]);
-}
-
-void FixWallGranEepa::set_arrays(int i)
-{
-  std::fill_n(history[i], n_values, 0.0);
-  if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
-}
-
-int FixWallGranEepa::pack_exchange(int i, double *buf)
-{
-  std::copy_n(history[i], n_values, buf);
-  return n_values;
-}
-
-int FixWallGranEepa::unpack_exchange(int i, double *buf)
-{
-  std::copy_n(buf, n_values, history[i]);
-  if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
-  return n_values;
-}
-
 double FixWallGranEepa::memory_usage()
 {
-  return static_cast<double>(atom->nmax) * sizeof(double) *
-      (n_values + (contact_table ? N_ATOM : 0)) +
-      static_cast<double>(candidates.capacity() * sizeof(int)) + masses.memory_usage();
+  double bytes = histories.memory_usage() + masses.memory_usage() +
+      static_cast<double>((candidates.capacity() + pieces.capacity() + first_piece.capacity()) *
+                          sizeof(int));
+  if (contact_table) bytes += static_cast<double>(atom->nmax) * N_ATOM * sizeof(double);
+  if (face_loads) bytes += face_loads->memory_usage();
+  return bytes;
 }

@@ -16,10 +16,12 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 #include "particle_sizes.h"
 #include "platen.h"
 #include "wall_motion.h"
-#include "wall_surface.h"
 
 #include <eepa/coefficients.h>
 #include <eepa_commands/wall_commands.h>
+#include <eepa_walls/face_histories.h>
+#include <eepa_walls/placement.h>
+#include <eepa_walls/shape.h>
 
 #include <array>
 #include <memory>
@@ -28,8 +30,8 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 
 namespace LAMMPS_NS {
 
-/// fix wall/gran/eepa: walls whose contacts obey the same law as those of particles. Each
-/// surface (both planes, the cylinder) keeps its own history with every particle.
+/// fix wall/gran/eepa: walls whose contacts obey the same law as those of particles. A particle has
+/// a history with each face of the wall that it touches.
 class FixWallGranEepa : public Fix {
  public:
   FixWallGranEepa(class LAMMPS *, int, char **);
@@ -40,8 +42,10 @@ class FixWallGranEepa : public Fix {
   void initial_integrate(int) override;
   void post_force(int) override;
   void final_integrate() override;
+  void end_of_step() override;
   void reset_dt() override;
   int modify_param(int, char **) override;
+  double compute_scalar() override;
   double compute_vector(int) override;
   double memory_usage() override;
 
@@ -66,28 +70,36 @@ class FixWallGranEepa : public Fix {
  private:
   /// the global vector
   enum {
-    FORCE_X,    ///< force of the particles on the wall, all surfaces together
+    FORCE_X,    ///< force of the particles on the wall, all faces together
     FORCE_Y,
     FORCE_Z,
-    POSITION,    ///< position of the first surface along its normal
+    POSITION,    ///< of the first plane along its normal; displacement of a loaded region or mesh
     VELOCITY,
     CONTACTS,
-    FIRST_FORCE_X,    ///< force on the first surface (lo, or the only one)
+    FIRST_FORCE_X,    ///< force on the first plane (lo, or the only one), or on any other shape
     FIRST_FORCE_Y,
     FIRST_FORCE_Z,
-    SECOND_FORCE_X,    ///< force on the second surface (hi next to lo), else 0
+    SECOND_FORCE_X,    ///< force on the second plane (hi next to lo), else 0
     SECOND_FORCE_Y,
     SECOND_FORCE_Z,
-    LOAD_FORCE,    ///< force of `load`, along the plane's axis
+    LOAD_FORCE,    ///< force of `load`, along its axis
     LOAD_KINETIC_ENERGY,
     LOAD_WORK,          ///< work of LOAD_FORCE so far, kinetic energy gained by changes of drive
     LOAD_DISSIPATED,    ///< loss by the platen's damping, limits and changes of drive so far
+    TORQUE_X,           ///< moment of the particles on the wall about the point of `about`
+    TORQUE_Y,
+    TORQUE_Z,
+    ANGLE,               ///< turned by `rotate` so far
+    ANGULAR_VELOCITY,    ///< about the axis of `rotate`
+    DISPLACEMENT_X,      ///< since the wall was made, without rotation
+    DISPLACEMENT_Y,
+    DISPLACEMENT_Z,
     N_VECTOR
   };
   /// the per-atom table that keyword `contacts` asks for
   enum {
-    ATOM_CONTACTS,    ///< number of surfaces in contact
-    ATOM_FORCE_X,     ///< force on the particle, all surfaces together
+    ATOM_CONTACTS,    ///< number of faces in contact
+    ATOM_FORCE_X,     ///< force on the particle, all faces together
     ATOM_FORCE_Y,
     ATOM_FORCE_Z,
     ATOM_POINT_X,    ///< contact point, of the deepest contact as all below
@@ -99,9 +111,10 @@ class FixWallGranEepa : public Fix {
     ATOM_SLIP,
     N_ATOM
   };
-  /// force and contacts of a surface in the last force call, this rank's part
-  struct SurfaceSum {
-    double force[3];
+  /// of the last force call, this rank's part
+  struct Sums {
+    double force[2][3];    ///< on the first and the second plane
+    double moment[3];
     double contacts;
   };
 
@@ -109,12 +122,20 @@ class FixWallGranEepa : public Fix {
   eepa::Parameters parameters;
   eepa::Coefficients coefficients;
   ContactMasses masses;
-  WallSurfaces surfaces;
 
-  std::array<double, 2> initial_position = {0.0, 0.0};    // planes lo and hi without displacement
-  eepa::MotionArguments motion_args;                      // as typed last
+  eepa::WallShape typed_shape;
+  std::unique_ptr<eepa::Shape> shape;
+  class RegionShape *region_shape = nullptr;    // the shape, where it is a region
+  eepa::Placement placement;
+
+  double initial_position = 0.0;        // of the first plane without displacement
+  eepa::MotionArguments motion_args;    // as typed last
   WallMotion motion;
-  double sliding = 0.0;    // velocity of a surface by `shear`, as evaluated last
+  double sliding = 0.0;           // velocity of a surface by `shear`, as evaluated last
+  double surface_speed = 0.0;     // of a cylinder's surface about its axis
+  double angular_speed = 0.0;     // of `rotate`, as evaluated last
+  double angle_before = 0.0;      // turned by rotations before the present one
+  double rotation_reach = 0.0;    // largest distance of the surface from the axis of rotation
   Platen platen;
   double load_now = 0.0;          // external force at the last force call
   double load_stiffness = 0.0;    // largest stiffness of a contact with the platen, on all ranks
@@ -122,64 +143,102 @@ class FixWallGranEepa : public Fix {
   bigint checked_particles = 0;    // number of particles when the time step was checked
 
   double dt = 0.0;
-  int history_size;              // number of values of one contact
-  int n_values;                  // number of values of all surfaces
-  double **history = nullptr;    // nmax x n_values, delta_max = 0 where there is no contact
+  int history_size;    // number of values of one contact's history
+  eepa::FaceHistories histories;
+  int most_contacts = 0;    // of a particle on any rank, when a restart file was written last
   bool contact_table = false;
-  std::array<SurfaceSum, 2> surface_sums;
+  Sums sums;
+  std::array<double, 3> about;    // point of the torque
+  double elastic_energy = 0.0;    // of this rank's contacts at the last force call
   std::array<double, N_VECTOR> output_vector;
-  bool output_is_summed = true;    // whether output_vector has surface_sums of all ranks
+  bool output_is_summed = true;    // whether output_vector has the sums of all ranks
+  std::unique_ptr<class FaceLoads> face_loads;    // of `faces`
 
-  // the atoms that a force call visits: all that can touch a surface before the next collection
-  std::vector<int> candidates;
-  WallSurfaces collected_at;        // the surfaces at the last collection
-  double travel_left = 0.0;         // travel of the surfaces that requires the next collection
+  // the atoms that a force call visits: all that can touch a face before the next collection, with the
+  // pieces of the shape that each of them can touch
+  std::vector<int> candidates, pieces, first_piece;
+  eepa::Placement collected_at;     // the placement at the last collection
+  bool rotation_is_new = false;     // since the last collection
+  double travel_left = 0.0;         // travel of the surface that requires the next collection
   bool radii_may_change = false;    // during a run
+
+  // of the particle in turn
+  std::vector<eepa::SurfacePoint> found;    // its contacts
+  std::vector<int> history_of_found;        // their places in its list of histories, or -1
+  std::vector<char> is_matched;             // whether a history has a contact in `found`
 
   EnergyLedger ledger;
   bool keep_ledger = false;
   bool ledger_starts = false;    // with the next step: no ledger has booked the one before
   bool after_setup = false;      // whether the last force call was a set-up's
   std::vector<class ComputeGranEepaEnergyAtom *> atom_losses;    // that sum losses by atom
-  double power = 0.0;           // of the surfaces on this rank's particles, at the last force call
-  bool needs_setup = false;     // a new platen, on which no force call has computed the reaction
-  double platen_force = 0.0;    // on the particles along its axis, at the last force call
-  double platen_shear_power = 0.0;    // of its sliding surface on the particles, at that call
+  double power = 0.0;          // of the wall on this rank's particles, at the last force call
+  bool needs_setup = false;    // a new platen, on which no force call has computed the reaction
+  double platen_force = 0.0;   // on the particles along its axis, at the last force call
+  double other_power = 0.0;    // of its sliding or turning on the particles, at that call
 
   std::unique_ptr<const ContactEngine> engine;    // of the law
   StepRequest request;                            // of the present force call
 
+  void make_shape();
+  class Region *find_region() const;
   void require_walls_in_the_box() const;
+  std::string style_name() const;
+  void warn_of_rotation();
+  void check_time_step();
+  void complain(const std::string &message);
+  /// The largest stable time step of particles on the wall. Collective.
+  double contact_time_step();
+  /// The largest stable time step of the platen on its present contacts.
+  double platen_time_step() const;
+  void check_platen();
+
+  // motion, fix_wall_gran_eepa_motion.cpp
   bool loaded() const { return motion_args.drive == eepa::WallDrive::load; }
+  int load_axis() const { return motion_args.load.axis; }
+  /// Coordinate that a platen along this axis moves.
+  double initial_along(int axis) const;
+  double position() const;
+  double normal_velocity() const;
   /// Changes to another motion and keeps position, contacts and the velocity of a platen.
   void change_motion(const eepa::MotionArguments &next);
+  void begin_rotation();
+  void measure_rotation();
   void require_variables(const eepa::MotionArguments &motion) const;
   void require_limits(const eepa::LoadArguments &load, double place) const;
   void require_equal_style(const char *what, const std::string &variable) const;
   void evaluate_motion();
   double evaluate(const char *what, const eepa::Quantity &quantity);
   double evaluate_load();
-  void place_surfaces();
+  void place_wall();
+
+  // force call, fix_wall_gran_eepa_force.cpp
   bool motion_is_bounded() const;
+  double travelled() const;
   void collect_candidates();
   void sum_forces();
-  /// The largest stable time step of particles on the wall. Collective.
-  double contact_time_step();
-  /// The largest stable time step of the platen on its present contacts.
-  double platen_time_step() const;
-  void check_platen();
   void book(int i, const eepa::Dissipation &);
-  std::string style_name() const;
-  void warn_of_rotation();
-  void check_time_step();
-  void complain(const std::string &message);
-  void stop_at_overlap(int i, int surface, double overlap) const;
-  /// Contacts of a particle with all surfaces, and with one.
-  void meet(int i);
-  void meet(int i, int surface, bool member);
-  double *history_of(int i, int surface) const;
+  void meet(int i, const int *pieces_of_i, int count);
+  void match(int i, const eepa::Vec3 &centre);
+  void touch(int i, const eepa::Body<double> &, const eepa::Vec3 &centre, int which);
+  void part(int i, const eepa::Body<double> &, const eepa::Vec3 &centre,
+            const eepa::FaceHistory &, bool member);
+  void part_after_setup(int i, const eepa::Body<double> &, const eepa::Vec3 &centre,
+                        const int *pieces_of_i, int count);
+  eepa::WallPoint<double> wall_point(const eepa::SurfacePoint &, const eepa::Body<double> &,
+                                     const eepa::Vec3 &centre) const;
   void tabulate(int i, const eepa::Body<double> &, const eepa::WallPoint<double> &,
                 const ContactOutcome &);
+  eepa::Body<double> body_of(int i) const;
+  void require_slow(int i) const;
+  void stop_at_overlap(int i, int face, double overlap) const;
+  void stop_behind_wall(int i) const;
+
+  void allow_for(std::size_t contacts);
+  // contacts as numbers: face, normal, distance, history
+  int packed_size() const { return 5 + history_size; }
+  int pack(const eepa::FaceHistory &contact, double *buf) const;
+  eepa::FaceHistory unpack(const double *buf) const;
 
   // restart files, fix_wall_gran_eepa_restart.cpp
   std::vector<double> restart_state() const;

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// The force call of FixWallGranEepa.
+// The force call of FixWallGranEepa: which particles may touch the wall, and the contacts of each.
 
 #include "fix_wall_gran_eepa.h"
 
 #include "compute_gran_eepa_energy_atom.h"
+#include "face_loads.h"
+#include "region_shape.h"
 
 #include <eepa/status.h>
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -18,12 +21,14 @@
 #include <cmath>
 
 using namespace LAMMPS_NS;
+using eepa::FaceHistory;
+using eepa::SurfacePoint;
 using eepa::Vec3;
 
 void FixWallGranEepa::setup(int vflag)
 {
   // variables may read the position of the wall
-  place_surfaces();
+  place_wall();
   evaluate_motion();
   if (masses.has_bodies()) masses.collect_bodies();
   platen_warned = false;    // its own bound is checked where its contacts are known
@@ -33,38 +38,46 @@ void FixWallGranEepa::setup(int vflag)
   needs_setup = false;
 }
 
-void FixWallGranEepa::post_force(int /*vflag*/)
+void FixWallGranEepa::post_force(int vflag)
 {
+  v_init(vflag);
   if (masses.has_bodies() && neighbor->ago == 0) masses.collect_bodies();
   if (neighbor->ago == 0 && update->setupflag == 0 && atom->natoms > checked_particles)
     check_time_step();
-  place_surfaces();
-  if (update->setupflag || neighbor->ago == 0 || !motion_is_bounded() ||
-      !(surfaces.moved_since(collected_at) <= travel_left))
+  place_wall();
+  if (region_shape && region_shape->moves()) {
+    // variables of the region may ask for computes
+    modify->clearstep_compute();
+    region_shape->update(update->ntimestep, dt);
+    modify->addstep_compute(update->ntimestep + 1);
+  }
+  const bool step = update->setupflag == 0;
+  request = StepRequest::of_call(step, dt, keep_ledger, ledger_starts);
+  request.wants_energy = true;
+  if (!step || neighbor->ago == 0 || !motion_is_bounded() || !(travelled() <= travel_left))
     collect_candidates();
-  surface_sums = {};
+  sums = {};
   output_is_summed = false;
   ledger.elastic = eepa::StoredEnergy();
+  elastic_energy = 0.0;
   const double power_before = power;
   power = 0.0;
   atom_losses.clear();
   if (keep_ledger) atom_losses = ComputeGranEepaEnergyAtom::find(modify);
-  const bool step = update->setupflag == 0;
-  request = StepRequest::of_call(step, dt, keep_ledger, ledger_starts);
-  for (const int i : candidates) meet(i);
+  if (face_loads && step) face_loads->start_step();
+  for (std::size_t k = 0; k < candidates.size(); k++)
+    meet(candidates[k], pieces.data() + first_piece[k], first_piece[k + 1] - first_piece[k]);
   after_setup = !step;
   if (step) ledger_starts = false;
   if (loaded()) {
-    const int dim = surfaces.axis();
-    const double platen_force_before = platen_force;
-    platen_force = -surface_sums[0].force[dim];
+    const int dim = load_axis();
+    const double platen_force_before = platen_force, other_power_before = other_power;
+    platen_force = -(sums.force[0][dim] + sums.force[1][dim]);
     // a platen's velocity may change within a step, so force times displacement is the work
-    const double platen_shear_power_before = platen_shear_power;
-    platen_shear_power =
-        motion_args.slides ? -surface_sums[0].force[motion_args.shear_axis] * sliding : 0.0;
+    other_power = power - platen_force * platen.velocity;
     if (keep_ledger && step) {
       ledger.wall_work += 0.5 * (platen_force_before + platen_force) * platen.travel();
-      ledger.wall_work += 0.5 * (platen_shear_power_before + platen_shear_power) * dt;
+      ledger.wall_work += 0.5 * (other_power_before + other_power) * dt;
     }
     // MPI gives every rank the same bits, so that all ranks move the platen alike
     sum_forces();
@@ -76,97 +89,249 @@ void FixWallGranEepa::post_force(int /*vflag*/)
   }
 }
 
-/// Whether no atom moves by more than half the skin between two neighbour lists. LAMMPS ensures
-/// this only if it checks all atoms, or makes a new list, in every step.
+/* ---------------------------------------------------------------------- candidates */
+
+/// Whether no atom moves by more than half the skin between two neighbour lists, and the wall moves
+/// by its drive only. LAMMPS ensures the former only if it checks all atoms, or makes a new list, in
+/// every step.
 bool FixWallGranEepa::motion_is_bounded() const
 {
   return neighbor->every == 1 && neighbor->delay <= 1 && !neighbor->build_once &&
-      !neighbor->includegroup && !radii_may_change;
+      !neighbor->includegroup && !radii_may_change && !shape->moves();
 }
 
-/// Collects the atoms that can touch a surface before the next collection, of any group, because
+/// Largest distance by which the surface may have approached any point since the last collection.
+double FixWallGranEepa::travelled() const
+{
+  if (rotation_is_new) return HUGE_VAL;
+  const Vec3 shift = placement.displacement - collected_at.displacement;
+  const double turn = std::fabs(placement.angle - collected_at.angle);
+  if (turn == 0.0) return shape->approach(placement.direction_to_shape(shift));
+  return shift.norm() + turn * rotation_reach;
+}
+
+/// Collects the atoms that can touch a face before the next collection, of any group, because
 /// groups may change. Where their motion is not bounded, collects those that touch at present.
 void FixWallGranEepa::collect_candidates()
 {
   double margin = 0.0;
   travel_left = 0.0;
   if (motion_is_bounded()) {
-    // Surfaces may move by half the skin. Atoms may move by half the skin from their positions in a
+    // The wall may move by half the skin. Atoms may move by half the skin from their positions in a
     // new neighbour list; in an older list they may have done so already, the other way. Some
     // rounding is added.
     travel_left = 0.5 * neighbor->skin;
     margin = (1.0 + 1e-6) * (travel_left + (neighbor->ago == 0 ? 0.5 : 1.0) * neighbor->skin);
   }
-  collected_at = surfaces;
+  collected_at = placement;
+  rotation_is_new = false;
   candidates.clear();
-  const int n_surfaces = surfaces.count();
+  pieces.clear();
+  first_piece.assign(1, 0);
   for (int i = 0; i < atom->nlocal; i++) {
-    bool known = false;
-    for (int surface = 0; surface < n_surfaces; surface++)
-      known |= history_of(i, surface)[eepa::MAX_OVERLAP] != 0.0;
-    if (known || surfaces.near(atom->x[i], atom->radius[i] + margin)) candidates.push_back(i);
+    require_slow(i);
+    const Vec3 centre = placement.to_shape(Vec3(atom->x[i]));
+    const bool near = shape->collect(centre, atom->radius[i] + margin, pieces);
+    if (!near && !histories.has_some(i)) {
+      pieces.resize(first_piece.back());
+      continue;
+    }
+    candidates.push_back(i);
+    first_piece.push_back(static_cast<int>(pieces.size()));
   }
   if (contact_table && atom->nlocal > 0)
     std::fill_n(array_atom[0], static_cast<std::size_t>(atom->nlocal) * N_ATOM, 0.0);
 }
 
-double *FixWallGranEepa::history_of(int i, int surface) const
+/* ---------------------------------------------------------------------- contacts of a particle */
+
+eepa::Body<double> FixWallGranEepa::body_of(int i) const
 {
-  return history[i] + static_cast<std::ptrdiff_t>(surface) * history_size;
+  return {Vec3(atom->x[i]), Vec3(atom->v[i]), Vec3(atom->omega[i]), atom->radius[i],
+          masses.mass(i)};
 }
 
-void FixWallGranEepa::meet(int i)
+void FixWallGranEepa::meet(int i, const int *pieces_of_i, int count)
 {
   if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
   // a particle that leaves the group in contact must not find its old history when it comes back
   const bool member = atom->mask[i] & groupbit;
-  if (!member && !keep_ledger) {
-    std::fill_n(history[i], n_values, 0.0);
-    return;
+  if (!member && !keep_ledger) histories.clear(i);
+  if (!member && !histories.has_some(i)) return;
+  if (member) require_slow(i);
+
+  const Vec3 centre = placement.to_shape(Vec3(atom->x[i]));
+  found.clear();
+  if (member) shape->visit(centre, atom->radius[i], pieces_of_i, count, found);
+  // a set-up leaves no history, so whether the particle touched then is found from its motion
+  const bool unknown_may_be_old = member && keep_ledger && after_setup && request.advance;
+  if (found.empty() && !histories.has_some(i) && !unknown_may_be_old) return;
+
+  const eepa::Body<double> body = body_of(i);
+  match(i, centre);
+  if (histories.has_some(i)) {
+    FaceHistory *list = histories.mutable_list(i).data();
+    for (std::size_t k = 0; k < is_matched.size(); k++)
+      if (!is_matched[k]) part(i, body, centre, list[k], member);
   }
-  for (int surface = 0; surface < surfaces.count(); surface++) meet(i, surface, member);
+  if (unknown_may_be_old) part_after_setup(i, body, centre, pieces_of_i, count);
+  for (std::size_t k = 0; k < found.size(); k++) touch(i, body, centre, static_cast<int>(k));
+
+  if (!histories.has_some(i)) return;
+  auto &list = histories.mutable_list(i);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < list.size(); k++)
+    if (k >= is_matched.size() || is_matched[k]) list[kept++] = list[k];
+  list.resize(kept);
+  allow_for(kept);
+  histories.release(i);
 }
 
-void FixWallGranEepa::meet(int i, int surface, bool member)
+/// Finds the history of each contact: of the same face, or of a face from which the particle slid.
+/// Of several, the one whose normal is nearest.
+void FixWallGranEepa::match(int i, const Vec3 &centre)
 {
-  const double *x = atom->x[i];
-  const double radius = atom->radius[i];
-  double *values = history_of(i, surface);
-  const bool known = values[eepa::MAX_OVERLAP] != 0.0;
-  if (!known && !surfaces.on_side(surface, x)) return;
-  // a set-up leaves no history, so whether the particle touched then is found from its motion
-  const bool unknown_is_new = !(keep_ledger && after_setup && request.advance);
-  if (!known && (!member || (unknown_is_new && !surfaces.reaches(surface, x, radius)))) return;
+  const auto &list = histories.list(i);
+  history_of_found.assign(found.size(), -1);
+  is_matched.assign(list.size(), 0);
+  for (const bool same_face : {true, false})
+    for (std::size_t k = 0; k < found.size(); k++) {
+      if (history_of_found[k] >= 0) continue;
+      double closest = -HUGE_VAL;
+      for (std::size_t m = 0; m < list.size(); m++) {
+        const double alike = eepa::dot(list[m].normal, found[k].normal);
+        if (is_matched[m] || alike <= closest) continue;
+        if (same_face ? list[m].face != found[k].face
+                      : !shape->continues(list[m].face, found[k], centre))
+          continue;
+        closest = alike;
+        history_of_found[k] = static_cast<int>(m);
+      }
+      if (history_of_found[k] >= 0) is_matched[history_of_found[k]] = 1;
+    }
+}
 
-  const eepa::Body<double> body = {Vec3(x), Vec3(atom->v[i]), Vec3(atom->omega[i]), radius,
-                                   masses.mass(i)};
-  const eepa::WallPoint<double> point = surfaces.nearest(surface, body);
-  if (point.overlap <= 0.0 && !known && unknown_is_new) return;
-  const eepa::Contact contact = eepa::contact_at_wall(body, point, request.time_step);
-  const bool touched = known ||
-      (!unknown_is_new && point.overlap + contact.velocity.dot(contact.normal) * dt > 0.0);
-  if (point.overlap <= 0.0 || !member) {
-    if (keep_ledger && touched && (request.advance || !member))
-      book(i, engine->open(coefficients, request, contact, values));
-    std::fill_n(values, history_size, 0.0);
-    return;
+/// A contact of this step.
+void FixWallGranEepa::touch(int i, const eepa::Body<double> &body, const Vec3 &centre, int which)
+{
+  const SurfacePoint &point = found[which];
+  FaceHistory fresh;
+  fresh.face = point.face;
+  const bool known = history_of_found[which] >= 0;
+  FaceHistory &history = known ? histories.mutable_list(i)[history_of_found[which]] : fresh;
+  // a direction does not turn over in a step, unless the centre has got through the face
+  if (eepa::dot(history.normal, point.normal) < 0.0) stop_behind_wall(i);
+
+  const eepa::WallPoint<double> wall = wall_point(point, body, centre);
+  if (eepa::too_deep(wall.overlap, body.radius)) stop_at_overlap(i, point.face, wall.overlap);
+  const eepa::Contact contact = eepa::contact_at_wall(body, wall, request.time_step);
+  const bool touched_in_setup = keep_ledger && after_setup && request.advance &&
+      wall.overlap + contact.velocity.dot(contact.normal) * dt > 0.0;
+  const ContactOutcome outcome = engine->evaluate(
+      coefficients, request, contact, !known && !touched_in_setup, history.values.data());
+  history.face = point.face;
+  if (request.advance) {
+    history.normal = point.normal;
+    history.distance = point.distance;
+    if (!known) histories.mutable_list(i).push_back(history);
   }
-  if (eepa::too_deep(point.overlap, radius)) stop_at_overlap(i, surface, point.overlap);
 
-  const ContactOutcome outcome = engine->evaluate(coefficients, request, contact, !touched, values);
   const eepa::Wrench<double> &wrench = outcome.wrench;
-  if (keep_ledger) {
-    power += wrench.force.dot(point.velocity);
-    ledger.store(outcome.energy, 1.0);
-    if (request.wants_losses) book(i, outcome.lost);
-  }
+  elastic_energy += outcome.energy.total();
+  if (keep_ledger) ledger.store(outcome.energy, 1.0);
+  if (request.wants_losses) book(i, outcome.lost);
+  if (keep_ledger) power += eepa::power_of_wall(wrench, contact, wall);
+  const Vec3 moment = eepa::moment_on_wall(wrench, body.x, Vec3(about.data()));
+  double *force_on_wall = sums.force[typed_shape.planes() == 2 ? point.face : 0];
   for (int k = 0; k < 3; k++) {
     atom->f[i][k] += wrench.force[k];
     atom->torque[i][k] += wrench.torque_i[k];
-    surface_sums[surface].force[k] -= wrench.force[k];
+    force_on_wall[k] -= wrench.force[k];
+    sums.moment[k] += moment[k];
   }
-  surface_sums[surface].contacts += 1.0;
-  if (contact_table) tabulate(i, body, point, outcome);
+  sums.contacts += 1.0;
+  if (contact_table) tabulate(i, body, wall, outcome);
+  if (face_loads && request.advance) face_loads->add(point.face, contact, wrench, dt);
+  if (vflag_either) {
+    const Vec3 arm = point.distance * wall.normal;
+    const Vec3 &f = wrench.force;
+    double virial_of_i[6] = {arm[0] * f[0], arm[1] * f[1], arm[2] * f[2],
+                             arm[0] * f[1], arm[0] * f[2], arm[1] * f[2]};
+    v_tally(i, virial_of_i);
+  }
+}
+
+/// A contact of the step before that is none any more.
+void FixWallGranEepa::part(int i, const eepa::Body<double> &body, const Vec3 &centre,
+                           const FaceHistory &history, bool member)
+{
+  const Vec3 motion_of_centre =
+      dt * placement.direction_to_shape(body.v - placement.velocity_at(body.x));
+  if (member && request.advance && eepa::dot(motion_of_centre, history.normal) < -history.distance)
+    stop_behind_wall(i);
+  if (!keep_ledger || (!request.advance && member)) return;
+  SurfacePoint point = shape->nearest(history.face, centre);
+  if (point.normal == Vec3::Zero()) {
+    point.normal = history.normal;
+    point.distance = body.radius;
+  }
+  const eepa::WallPoint<double> wall = wall_point(point, body, centre);
+  const eepa::Contact contact = eepa::contact_at_wall(body, wall, request.time_step);
+  book(i, engine->open(coefficients, request, contact, history.values.data()));
+}
+
+/// Books the opening of contacts that the set-up had and the first step has not: the set-up stored
+/// no history.
+void FixWallGranEepa::part_after_setup(int i, const eepa::Body<double> &body, const Vec3 &centre,
+                                       const int *pieces_of_i, int count)
+{
+  const double step = dt * (body.v - placement.velocity_at(body.x)).norm();
+  std::vector<SurfacePoint> near;
+  shape->visit(centre, body.radius + step, pieces_of_i, count, near);
+  const FaceHistory none;
+  for (const SurfacePoint &point : near) {
+    if (point.distance < body.radius) continue;
+    const auto has_face = [&point](const auto &other) {
+      return other.face == point.face;
+    };
+    const auto &list = histories.list(i);
+    if (std::any_of(found.begin(), found.end(), has_face) ||
+        std::any_of(list.begin(), list.end(), has_face))
+      continue;
+    const eepa::WallPoint<double> wall = wall_point(point, body, centre);
+    const eepa::Contact contact = eepa::contact_at_wall(body, wall, request.time_step);
+    if (wall.overlap + contact.velocity.dot(contact.normal) * dt > 0.0)
+      book(i, engine->open(coefficients, request, contact, none.values.data()));
+  }
+}
+
+/// The wall as the law sees it, in space and with its motion.
+eepa::WallPoint<double> FixWallGranEepa::wall_point(const SurfacePoint &point,
+                                                    const eepa::Body<double> &body,
+                                                    const Vec3 &centre) const
+{
+  eepa::WallPoint<double> wall;
+  wall.normal = placement.direction_to_space(point.normal);
+  wall.overlap = body.radius - point.distance;
+  const Vec3 relative = body.v - placement.velocity_at(body.x);
+  wall.normal_rate = placement.direction_to_space(
+      shape->normal_rate(point, centre, placement.direction_to_shape(relative)));
+  const Vec3 spot = eepa::middle_of_overlap(body, wall.normal, wall.overlap);
+  wall.velocity = placement.velocity_at(spot);
+  if (placement.angular_velocity() != Vec3::Zero()) {
+    wall.angular_velocity = placement.angular_velocity();
+    wall.normal_rate += wall.angular_velocity.cross(wall.normal);
+  }
+  if (shape->moves()) {
+    const eepa::SurfaceVelocity own = shape->velocity(point, centre);
+    wall.velocity += placement.direction_to_space(own.linear);
+    wall.angular_velocity += placement.direction_to_space(own.angular);
+  }
+  if (surface_speed != 0.0) {    // of a cylinder
+    const Vec3 around(wall.normal[1], -wall.normal[0], 0.0);
+    wall.velocity += (point.face == 0 ? -surface_speed : surface_speed) * around;
+  }
+  return wall;
 }
 
 void FixWallGranEepa::tabulate(int i, const eepa::Body<double> &body,
@@ -190,58 +355,47 @@ void FixWallGranEepa::book(int i, const eepa::Dissipation &lost)
   for (auto *compute : atom_losses) compute->add(i, AtomLosses::by_kind(lost).data());
 }
 
-void FixWallGranEepa::stop_at_overlap(int i, int surface, double overlap) const
+/* ---------------------------------------------------------------------- errors */
+
+/// Stops where a particle was on one side of the wall a step ago and is on the other side now. One that
+/// moves by less than its radius in a step can not get through without a contact.
+void FixWallGranEepa::require_slow(int i) const
 {
-  std::string where;
-  if (surfaces.is_plane())
-    where = fmt::format("or it was put behind the plane: {} {} at {:.6g} bounds a half space",
-                        surfaces.kind_name(), surfaces.is_lower(surface) ? "lo" : "hi",
-                        (surfaces.is_lower(surface) ? surfaces.lo : surfaces.hi) +
-                            surfaces.displacement[surfaces.axis()]);
-  else
-    where =
-        fmt::format("its center is through the cylinder of radius {:.6g}, which it touched from {}",
-                    surfaces.radius, surface == 0 ? "inside" : "outside");
-  error->one(
-      FLERR,
-      "fix {} wall/gran/eepa: atom {} overlaps the wall by {:.6g} at step {}, more than its "
-      "radius {:.6g}: the time step is too large, the stiffness too small or the wall too fast; {}",
-      id, atom->tag[i], overlap, update->ntimestep, atom->radius[i], where);
+  if (!request.advance || !(atom->mask[i] & groupbit)) return;
+  const Vec3 x(atom->x[i]), v(atom->v[i]);
+  const double radius = atom->radius[i];
+  const Vec3 path = dt * (v - placement.velocity_at(x));
+  if (!(path.squaredNorm() > radius * radius)) return;
+  const Vec3 now = placement.to_shape(x);
+  const Vec3 before = now - placement.direction_to_shape(path);
+  if (shape->is_between(before, now)) stop_behind_wall(i);
 }
 
-/// Sums the forces and contacts of all ranks. Collective.
-void FixWallGranEepa::sum_forces()
+void FixWallGranEepa::stop_at_overlap(int i, int face, double overlap) const
 {
-  double mine[8], all[8];
-  for (int s = 0; s < 2; s++) {
-    std::copy_n(surface_sums[s].force, 3, mine + 4 * s);
-    mine[4 * s + 3] = surface_sums[s].contacts;
-  }
-  MPI_Allreduce(mine, all, 8, MPI_DOUBLE, MPI_SUM, world);
-  if (!surfaces.is_plane()) {
-    // the two sides of a cylinder are one surface to a user
-    for (int k = 0; k < 4; k++) {
-      all[k] += all[4 + k];
-      all[4 + k] = 0.0;
-    }
-  }
-  for (int k = 0; k < 3; k++) {
-    output_vector[FIRST_FORCE_X + k] = all[k];
-    output_vector[SECOND_FORCE_X + k] = all[4 + k];
-    output_vector[FORCE_X + k] = all[k] + all[4 + k];
-  }
-  output_vector[CONTACTS] = all[3] + all[7];
-  output_is_summed = true;
+  const bool lower = face == 0;
+  const double place = (lower ? typed_shape.lo : typed_shape.hi) +
+      placement.displacement[typed_shape.is_plane() ? typed_shape.axis() : 0];
+  error->one(FLERR,
+             "fix {} wall/gran/eepa: atom {} overlaps the wall by {:.6g} at step {}, more than its "
+             "radius {:.6g}: the time step is too large, the stiffness too small or the wall too "
+             "fast; or it was put behind the plane: {} {} at {:.6g} bounds a half space",
+             id, atom->tag[i], overlap, update->ntimestep, atom->radius[i], typed_shape.kind_name(),
+             lower ? "lo" : "hi", place);
 }
 
-double FixWallGranEepa::compute_vector(int n)
+void FixWallGranEepa::stop_behind_wall(int i) const
 {
-  if (!output_is_summed) sum_forces();
-  output_vector[POSITION] = loaded() ? platen.position : surfaces.position();
-  output_vector[VELOCITY] = loaded() ? platen.velocity : surfaces.normal_velocity();
-  output_vector[LOAD_FORCE] = loaded() ? load_now : 0.0;
-  output_vector[LOAD_KINETIC_ENERGY] = loaded() ? platen.kinetic_energy() : 0.0;
-  output_vector[LOAD_WORK] = platen.work;
-  output_vector[LOAD_DISSIPATED] = platen.dissipated;
-  return output_vector[n];
+  std::string what = typed_shape.kind_name();
+  if (typed_shape.kind == eepa::WallShape::zcylinder)
+    what = fmt::format("cylinder of radius {:.6g}", typed_shape.radius);
+  if (typed_shape.kind == eepa::WallShape::region) what += " " + typed_shape.region_id;
+  if (typed_shape.kind == eepa::WallShape::mesh) what += " " + typed_shape.file;
+  const Vec3 relative = Vec3(atom->v[i]) - placement.velocity_at(Vec3(atom->x[i]));
+  error->one(FLERR,
+             "fix {} wall/gran/eepa: the center of atom {} is through the {} at step {}, at {:.6g} "
+             "{:.6g} {:.6g}: it moves by {:.6g} a step and its radius is {:.6g}; the time step is "
+             "too large, the stiffness too small or the wall too fast",
+             id, atom->tag[i], what, update->ntimestep, atom->x[i][0], atom->x[i][1], atom->x[i][2],
+             dt * relative.norm(), atom->radius[i]);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// How FixWallGranEepa moves its surfaces: variables, steps, and changes of the drive.
+// How FixWallGranEepa moves its wall: variables, steps, and changes of the drive.
 
 #include "fix_wall_gran_eepa.h"
 
@@ -22,6 +22,7 @@ void FixWallGranEepa::require_variables(const eepa::MotionArguments &args) const
 {
   for (const auto &component : args.velocity) require_equal_style("velocity", component.variable);
   require_equal_style("shear", args.shear.variable);
+  require_equal_style("rotate omega", args.rotation.speed.variable);
   require_equal_style("load force", args.load.force.variable);
   require_equal_style("load pressure", args.load.pressure.variable);
   require_equal_style("load area", args.load.area.variable);
@@ -56,7 +57,7 @@ double FixWallGranEepa::evaluate(const char *what, const eepa::Quantity &quantit
 /// Evaluates the user's velocities. Their variables may ask for this fix's own vector.
 void FixWallGranEepa::evaluate_motion()
 {
-  bool any = !motion_args.shear.variable.empty();
+  bool any = !motion_args.shear.variable.empty() || !motion_args.rotation.speed.variable.empty();
   for (const auto &component : motion_args.velocity) any |= !component.variable.empty();
   if (!any) return;
   modify->clearstep_compute();
@@ -64,11 +65,12 @@ void FixWallGranEepa::evaluate_motion()
   WallMotion::Vector given;
   for (int k = 0; k < 3; k++) given[k] = evaluate("velocity", motion_args.velocity[k]);
   sliding = evaluate("shear", motion_args.shear);
+  angular_speed = evaluate("rotate omega", motion_args.rotation.speed);
   motion.given = given;
   modify->addstep_compute(update->ntimestep + 1);
 }
 
-/// External force along the plane's axis. Its variables may ask for this fix's own vector.
+/// External force along the platen's axis. Its variables may ask for this fix's own vector.
 double FixWallGranEepa::evaluate_load()
 {
   const eepa::LoadArguments &load = motion_args.load;
@@ -84,7 +86,8 @@ double FixWallGranEepa::evaluate_load()
                  "fix {} wall/gran/eepa: load area variable {} = {} at step {} is not allowed: it "
                  "must be > 0",
                  id, load.area.variable, area, update->ntimestep);
-    applied = pressure * area * surfaces.inward();
+    const bool from_above = typed_shape.is_plane() && !typed_shape.has_lo;
+    applied = pressure * area * (from_above ? -1.0 : 1.0);
   } else {
     applied = evaluate("load force", load.force);
   }
@@ -105,33 +108,50 @@ void FixWallGranEepa::initial_integrate(int /*vflag*/)
   evaluate_motion();
   if (loaded()) platen.start_step(dt);
   motion.advance(dt);
+  if (motion_args.rotates) placement.turn_to(placement.angle + angular_speed * dt);
 }
 
 void FixWallGranEepa::final_integrate()
 {
-  if (loaded()) platen.end_step(load_now, output_vector[FORCE_X + surfaces.axis()], dt);
+  if (loaded()) platen.end_step(load_now, output_vector[FORCE_X + load_axis()], dt);
 }
 
-/// Moves the surfaces to the present position of motion and platen.
-void FixWallGranEepa::place_surfaces()
+double FixWallGranEepa::initial_along(int axis) const
 {
-  surfaces.lo = initial_position[0];
-  surfaces.hi = initial_position[1];
-  surfaces.displacement = motion.displacement;
-  surfaces.velocity = motion.velocity();
-  surfaces.surface_speed = 0.0;
+  return typed_shape.is_plane() && axis == typed_shape.axis() ? initial_position : 0.0;
+}
+
+double FixWallGranEepa::position() const
+{
+  if (loaded()) return platen.position;
+  if (typed_shape.is_plane()) return initial_position + placement.displacement[typed_shape.axis()];
+  return typed_shape.radius;    // 0 for a region or a mesh, which has no axis without a load
+}
+
+double FixWallGranEepa::normal_velocity() const
+{
+  if (loaded()) return platen.velocity;
+  return typed_shape.is_plane() ? placement.velocity[typed_shape.axis()] : 0.0;
+}
+
+/// Moves the wall to the present position of motion and platen.
+void FixWallGranEepa::place_wall()
+{
+  placement.displacement = eepa::Vec3(motion.displacement.data());
+  placement.velocity = eepa::Vec3(motion.velocity().data());
+  surface_speed = 0.0;
   if (loaded()) {
-    const int dim = surfaces.axis();
-    surfaces.place(platen.position);
-    surfaces.displacement[dim] = 0.0;
-    surfaces.velocity[dim] = platen.velocity;
+    const int dim = load_axis();
+    placement.displacement[dim] = platen.position - initial_along(dim);
+    placement.velocity[dim] = platen.velocity;
   }
   if (motion_args.slides) {
-    if (surfaces.is_plane() || motion_args.shear_axis == 2)
-      surfaces.velocity[motion_args.shear_axis] = sliding;
+    if (typed_shape.is_plane() || motion_args.shear_axis == 2)
+      placement.velocity[motion_args.shear_axis] = sliding;
     else
-      surfaces.surface_speed = sliding;
+      surface_speed = sliding;
   }
+  placement.set_angular_velocity(motion_args.rotates ? angular_speed : 0.0);
 }
 
 /* ---------------------------------------------------------------------- changes of the drive */
@@ -140,23 +160,24 @@ void FixWallGranEepa::require_limits(const eepa::LoadArguments &load, double pla
 {
   if (place < load.lowest || place > load.highest)
     error->all(FLERR,
-               "fix {} wall/gran/eepa: load limits {:.6g} to {:.6g} are not allowed: the plane is "
+               "fix {} wall/gran/eepa: load limits {:.6g} to {:.6g} are not allowed: the {} is "
                "at {:.6g}, outside of them",
-               id, load.lowest, load.highest, place);
+               id, load.lowest, load.highest,
+               typed_shape.is_plane() ? "plane" : "displacement of the wall", place);
 }
 
 void FixWallGranEepa::change_motion(const eepa::MotionArguments &next)
 {
   const bool was_loaded = loaded(), is_loaded = next.drive == WallDrive::load;
-  // position and velocity at the end of the last step
-  const double place = was_loaded ? platen.position : surfaces.position();
-  const double speed = was_loaded ? platen.velocity : surfaces.normal_velocity();
+  const bool same_platen = was_loaded && is_loaded && next.load.axis == load_axis();
+  // displacement and velocity at the end of the last step
   if (was_loaded) {
-    const int dim = surfaces.axis();
-    motion.displacement[dim] = place - initial_position[surfaces.has_lo ? 0 : 1];
-    if (!is_loaded) platen.stop();
+    const int dim = load_axis();
+    motion.displacement[dim] = platen.position - initial_along(dim);
   }
-  const double had = was_loaded && is_loaded ? platen.kinetic_energy() : 0.0;
+  const double speed = placement.velocity[next.load.axis];
+  const double had = same_platen ? platen.kinetic_energy() : 0.0;
+  if (was_loaded && !same_platen) platen.stop();
   motion_args = next;
   motion.drive = next.drive;
   motion.wiggle_axis = next.wiggle_axis;
@@ -166,14 +187,35 @@ void FixWallGranEepa::change_motion(const eepa::MotionArguments &next)
   sliding = next.shear.value;
   motion.begin();
   if (is_loaded) {
+    const double place = same_platen
+        ? platen.position
+        : initial_along(next.load.axis) + motion.displacement[next.load.axis];
     platen.mass = next.load.mass;
     platen.damping = next.load.damping;
     platen.lowest = next.load.lowest;
     platen.highest = next.load.highest;
-    platen.start(place, speed, had);
+    platen.start(place, same_platen ? platen.velocity : speed, had);
     needs_setup = true;
   }
-  place_surfaces();
+  angular_speed = next.rotation.speed.value;
+  if (next.rotates) begin_rotation();
+  place_wall();
+}
+
+/// Begins the rotation of motion_args at the present placement.
+void FixWallGranEepa::begin_rotation()
+{
+  angle_before += placement.angle;
+  placement.displacement = eepa::Vec3(motion.displacement.data());
+  placement.begin_rotation(eepa::Vec3(motion_args.rotation.point.data()),
+                           eepa::Vec3(motion_args.rotation.axis.data()));
+  measure_rotation();
+}
+
+void FixWallGranEepa::measure_rotation()
+{
+  rotation_reach = shape->extent(placement.pivot_of_shape(), placement.axis_of_shape());
+  rotation_is_new = true;
 }
 
 /// fix_modify ID still|velocity ...|wiggle ...|shear ...|load ...
@@ -182,14 +224,17 @@ int FixWallGranEepa::modify_param(int narg, char **arg)
   eepa::MotionArguments next;
   std::size_t read = 0;
   try {
-    read = eepa::parse_wall_change(eepa::Words(arg, arg + narg), surfaces, next);
+    read = eepa::parse_wall_change(eepa::Words(arg, arg + narg), typed_shape, next);
   } catch (const std::invalid_argument &e) {
     error->all(FLERR, "fix_modify {} (wall/gran/eepa): {}", id, e.what());
   }
   if (read == 0) return 0;
   require_variables(next);
   if (next.drive == WallDrive::load)
-    require_limits(next.load, loaded() ? platen.position : surfaces.position());
+    require_limits(next.load,
+                   loaded() && next.load.axis == load_axis()
+                       ? platen.position
+                       : initial_along(next.load.axis) + placement.displacement[next.load.axis]);
   change_motion(next);
   return static_cast<int>(read);
 }

@@ -3,12 +3,11 @@
 // How FixWallGranEepa writes restart files and reads them.
 //
 // The fix writes a list of numbers, `names` below. The first is the format, the second their count.
-// A new kind of wall adds the numbers of its shape at the end, with a new value of `kind`.
-//
-// A particle has {length, values a contact, contacts n, n times {face, values of the contact}},
-// where length counts itself. Only faces in contact are written: a wall may have many faces.
+// Format 4 added those from ROTATES on; files of format 3 are read. Integers are exact.
 
 #include "fix_wall_gran_eepa.h"
+
+#include "region_shape.h"
 
 #include <eepa/history.h>
 #include <eepa_commands/restart_numbers.h>
@@ -27,7 +26,7 @@ using eepa::WallDrive;
 
 namespace {
 
-constexpr double restart_format = 3.0;
+constexpr double restart_format = 4.0, oldest_format = 3.0;
 
 enum StateIndex {
   FORMAT,
@@ -59,7 +58,27 @@ enum StateIndex {
   PLATEN_WORK,
   PLATEN_DISSIPATED,
   VECTOR,
-  N_STATE = VECTOR + 16
+  N_OLD_VECTOR = 16,
+  N_OLD_STATE = VECTOR + N_OLD_VECTOR,    // of format 3
+  ROTATES = N_OLD_STATE,
+  ANGLE,
+  ANGLE_BEFORE,
+  ANGULAR_SPEED,
+  BEGUN_AT,    // quaternion, scalar first
+  SHIFT_BEGUN_AT = BEGUN_AT + 4,
+  PIVOT = SHIFT_BEGUN_AT + 3,
+  AXIS = PIVOT + 3,
+  POINT = AXIS + 3,
+  LOAD_AXIS = POINT + 3,
+  SHAPE_CHECK,
+  REGION_STEP,
+  REGION_DISPLACEMENT,
+  REGION_ANGLE = REGION_DISPLACEMENT + 3,
+  REGION_VELOCITY,
+  REGION_ANGULAR_VELOCITY = REGION_VELOCITY + 3,
+  MORE_VECTOR = REGION_ANGULAR_VELOCITY + 3,
+  N_MORE_VECTOR = 8,
+  N_STATE = MORE_VECTOR + N_MORE_VECTOR
 };
 
 const char *name_of(int index)
@@ -99,12 +118,11 @@ const char *name_of(int index)
                                       "load work",
                                       "load dissipation"};
   static_assert(sizeof(names) / sizeof(names[0]) == VECTOR, "a name for each number");
-  return index < VECTOR ? names[index] : "output";
-}
-
-bool is_count(double value, double least, double most)
-{
-  return value >= least && value <= most && value == std::floor(value);
+  if (index < VECTOR) return names[index];
+  if (index < ROTATES) return "output";
+  if (index < LOAD_AXIS) return "rotation";
+  if (index < MORE_VECTOR) return index == SHAPE_CHECK ? "shape" : "load axis or region";
+  return "output";
 }
 
 /// Why the numbers can not have been written by this fix; "" where they can.
@@ -119,17 +137,20 @@ std::string damage(const std::vector<double> &state)
   const struct {
     int index;
     double least, most;
-  } integers[] = {{KIND, 0, 3},
-                  {SIDES, 1, 3},
+  } integers[] = {{KIND, 0, eepa::WallShape::kind_count - 1},
+                  {SIDES, 0, 3},
                   {LAW, 0, eepa::law_count - 1},
                   {ROLLING_SPRING, 0, 1},
                   {TWISTING_SPRING, 0, 1},
-                  {DRIVE, 0, 4},
+                  {DRIVE, 0, eepa::drive_count - 1},
                   {VALUES_A_CONTACT, 1, 1000},
                   {TIME_STEPS, 0, huge},
-                  {WIGGLE_AXIS, 0, 2}};
+                  {WIGGLE_AXIS, 0, 2},
+                  {ROTATES, 0, 1},
+                  {LOAD_AXIS, 0, 2},
+                  {REGION_STEP, -1, huge}};
   for (const auto &number : integers)
-    if (!is_count(state[number.index], number.least, number.most)) return wrong(number.index);
+    if (!eepa::is_count(state[number.index], number.least, number.most)) return wrong(number.index);
   for (const int index : {EXPONENT, WIGGLE_PERIOD})
     if (state[index] <= 0.0) return wrong(index);
   for (const int index : {RADIUS, PLATEN_MASS, TIME_STEP})
@@ -137,19 +158,29 @@ std::string damage(const std::vector<double> &state)
   return "";
 }
 
-int sides_of(const WallSurfaces &surfaces)
+int sides_of(const eepa::WallShape &shape)
 {
-  if (!surfaces.is_plane()) return 3;
-  return (surfaces.has_lo ? 1 : 0) + (surfaces.has_hi ? 2 : 0);
+  if (!shape.is_plane()) return 3;
+  return (shape.has_lo ? 1 : 0) + (shape.has_hi ? 2 : 0);
 }
 
 std::string shape_name(int kind, int sides)
 {
-  WallSurfaces surfaces;
-  surfaces.kind = static_cast<WallSurfaces::Kind>(kind);
-  std::string name = surfaces.kind_name();
-  if (surfaces.is_plane()) name += sides == 1 ? " lo NULL" : sides == 2 ? " NULL hi" : " lo hi";
+  eepa::WallShape shape;
+  shape.kind = static_cast<eepa::WallShape::Kind>(kind);
+  std::string name = shape.kind_name();
+  if (shape.is_plane()) name += sides == 1 ? " lo NULL" : sides == 2 ? " NULL hi" : " lo hi";
   return name;
+}
+
+void put(std::vector<double> &state, int index, const eepa::Vec3 &vector)
+{
+  std::copy_n(vector.data(), 3, state.begin() + index);
+}
+
+eepa::Vec3 vector_at(const std::vector<double> &state, int index)
+{
+  return eepa::Vec3(state.data() + index);
 }
 
 }    // namespace
@@ -161,11 +192,11 @@ std::vector<double> FixWallGranEepa::restart_state() const
   std::vector<double> state(N_STATE, 0.0);
   state[FORMAT] = restart_format;
   state[COUNT] = N_STATE;
-  state[KIND] = surfaces.kind;
-  state[SIDES] = sides_of(surfaces);
-  state[LO] = initial_position[0];
-  state[HI] = initial_position[1];
-  state[RADIUS] = surfaces.radius;
+  state[KIND] = typed_shape.kind;
+  state[SIDES] = sides_of(typed_shape);
+  state[LO] = typed_shape.lo;
+  state[HI] = typed_shape.hi;
+  state[RADIUS] = typed_shape.radius;
   state[LAW] = static_cast<double>(style.settings.law);
   state[EXPONENT] = style.settings.exponent;
   state[ROLLING_SPRING] = parameters.rolling == eepa::RollingModel::sds ? 1.0 : 0.0;
@@ -180,15 +211,35 @@ std::vector<double> FixWallGranEepa::restart_state() const
   state[WIGGLE_AXIS] = motion.wiggle_axis;
   state[WIGGLE_AMPLITUDE] = motion.amplitude;
   state[WIGGLE_PERIOD] = motion.period;
-  std::copy_n(surfaces.velocity.begin(), 3, state.begin() + SURFACE_VELOCITY);
-  state[SURFACE_SPEED] = surfaces.surface_speed;
+  put(state, SURFACE_VELOCITY, placement.velocity);
+  state[SURFACE_SPEED] = surface_speed;
   state[PLATEN_MASS] = platen.mass;
   state[PLATEN_POSITION] = platen.position;
   state[PLATEN_VELOCITY] = platen.velocity;
   state[PLATEN_WORK] = platen.work;
   state[PLATEN_DISSIPATED] = platen.dissipated;
-  static_assert(N_VECTOR == N_STATE - VECTOR, "the file has the whole global vector");
-  std::copy(output_vector.begin(), output_vector.end(), state.begin() + VECTOR);
+  state[ROTATES] = motion_args.rotates ? 1.0 : 0.0;
+  state[ANGLE] = placement.angle;
+  state[ANGLE_BEFORE] = angle_before;
+  state[ANGULAR_SPEED] = angular_speed;
+  state[BEGUN_AT] = placement.begun_at.w();
+  put(state, BEGUN_AT + 1, placement.begun_at.vec());
+  put(state, SHIFT_BEGUN_AT, placement.shift_begun_at);
+  put(state, PIVOT, placement.pivot);
+  put(state, AXIS, placement.axis);
+  std::copy_n(motion_args.rotation.point.begin(), 3, state.begin() + POINT);
+  state[LOAD_AXIS] = load_axis();
+  state[SHAPE_CHECK] = shape->check();
+  const RegionMotion region = region_shape ? region_shape->motion : RegionMotion();
+  state[REGION_STEP] = static_cast<double>(region.step);
+  put(state, REGION_DISPLACEMENT, region.displacement);
+  state[REGION_ANGLE] = region.angle;
+  put(state, REGION_VELOCITY, region.velocity);
+  put(state, REGION_ANGULAR_VELOCITY, region.angular_velocity);
+  static_assert(N_VECTOR == N_OLD_VECTOR + N_MORE_VECTOR, "the file has the whole global vector");
+  std::copy_n(output_vector.begin(), static_cast<int>(N_OLD_VECTOR), state.begin() + VECTOR);
+  std::copy_n(output_vector.begin() + N_OLD_VECTOR, static_cast<int>(N_MORE_VECTOR),
+              state.begin() + MORE_VECTOR);
   return state;
 }
 
@@ -196,6 +247,11 @@ void FixWallGranEepa::write_restart(FILE *fp)
 {
   // on all ranks, because it sums the forces of all ranks where that was not done yet
   FixWallGranEepa::compute_vector(0);
+  // LAMMPS asks rank 0 for the length of the longest entry of a particle
+  int mine = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    mine = std::max(mine, static_cast<int>(histories.list(i).size()));
+  MPI_Allreduce(&mine, &most_contacts, 1, MPI_INT, MPI_MAX, world);
   if (comm->me != 0) return;
   const std::vector<double> state = restart_state();
   const int bytes = static_cast<int>(state.size() * sizeof(double));
@@ -208,22 +264,35 @@ void FixWallGranEepa::restart(char *buf)
   std::vector<double> state(N_STATE);
   // read the format alone first: another format may be shorter
   std::memcpy(state.data(), buf, sizeof(double));
-  if (state[FORMAT] != restart_format)
-    error->all(FLERR,
-               "fix {} wall/gran/eepa: the restart file has format {}, this version reads {}", id,
-               state[FORMAT], restart_format);
+  const double format = state[FORMAT];
+  if (format != restart_format && format != oldest_format)
+    error->all(
+        FLERR,
+        "fix {} wall/gran/eepa: the restart file has format {}, this version reads {} and {}", id,
+        format, oldest_format, restart_format);
   std::memcpy(state.data(), buf, 2 * sizeof(double));
-  if (state[COUNT] != N_STATE)
+  const int count = format == restart_format ? N_STATE : N_OLD_STATE;
+  if (state[COUNT] != count)
     error->all(FLERR,
                "fix {} wall/gran/eepa: the restart file is damaged: count = {}, it must be {}", id,
-               state[COUNT], static_cast<int>(N_STATE));
-  std::memcpy(state.data(), buf, N_STATE * sizeof(double));
+               state[COUNT], count);
+  if (format == oldest_format) {
+    // what a wall of that time could not do
+    state[BEGUN_AT] = 1.0;
+    state[AXIS + 2] = 1.0;
+    state[REGION_STEP] = -1.0;
+  }
+  std::memcpy(state.data(), buf, count * sizeof(double));
+  if (format == oldest_format && state[KIND] <= eepa::WallShape::zplane)
+    state[LOAD_AXIS] = state[KIND];
   const std::string wrong = damage(state);
   if (!wrong.empty())
     error->all(FLERR, "fix {} wall/gran/eepa: the restart file is damaged: {}", id, wrong);
   require_same_wall(state);
   take_up_motion(state);
-  std::copy_n(state.begin() + VECTOR, N_VECTOR, output_vector.begin());
+  std::copy_n(state.begin() + VECTOR, static_cast<int>(N_OLD_VECTOR), output_vector.begin());
+  std::copy_n(state.begin() + MORE_VECTOR, static_cast<int>(N_MORE_VECTOR),
+              output_vector.begin() + N_OLD_VECTOR);
   output_is_summed = true;
 }
 
@@ -232,20 +301,26 @@ void FixWallGranEepa::restart(char *buf)
 void FixWallGranEepa::require_same_wall(const std::vector<double> &state) const
 {
   const std::string was = shape_name(static_cast<int>(state[KIND]), static_cast<int>(state[SIDES])),
-                    is = shape_name(surfaces.kind, sides_of(surfaces));
+                    is = shape_name(typed_shape.kind, sides_of(typed_shape));
   if (was != is)
     error->all(FLERR,
                "fix {} wall/gran/eepa: the wall of the restart file is {}, this one is {}: its "
                "contacts can not be those of another surface; give the same wall, or another fix "
                "ID to begin without them",
                id, was, is);
-  if (state[RADIUS] != surfaces.radius)
+  if (state[RADIUS] != typed_shape.radius)
     error->all(
         FLERR,
         "fix {} wall/gran/eepa: wall zcylinder R = {:.15g} is not allowed: it must be {:.15g} "
         "as in the restart file",
-        id, surfaces.radius, state[RADIUS]);
+        id, typed_shape.radius, state[RADIUS]);
   const std::vector<double> now = restart_state();
+  if (state[SHAPE_CHECK] != now[SHAPE_CHECK])
+    error->all(FLERR,
+               "fix {} wall/gran/eepa: the triangles of wall {} are others than those of the "
+               "restart file: its contacts can not be those of another surface; give the same "
+               "file with the same keywords, or another fix ID to begin without them",
+               id, typed_shape.kind_name());
   if (state[VALUES_A_CONTACT] != now[VALUES_A_CONTACT] ||
       state[ROLLING_SPRING] != now[ROLLING_SPRING] ||
       state[TWISTING_SPRING] != now[TWISTING_SPRING])
@@ -271,8 +346,8 @@ void FixWallGranEepa::require_same_wall(const std::vector<double> &state) const
     const char *name;
     bool there;
     double typed, stored;
-  } planes[] = {{"lo", surfaces.has_lo, initial_position[0], state[LO]},
-                {"hi", surfaces.has_hi, initial_position[1], state[HI]}};
+  } planes[] = {{"lo", typed_shape.has_lo, typed_shape.lo, state[LO]},
+                {"hi", typed_shape.has_hi, typed_shape.hi, state[HI]}};
   for (const auto &plane : planes)
     if (plane.there && plane.typed != plane.stored)
       error->warning(FLERR,
@@ -285,7 +360,12 @@ void FixWallGranEepa::require_same_wall(const std::vector<double> &state) const
 void FixWallGranEepa::take_up_motion(const std::vector<double> &state)
 {
   const eepa::MotionArguments typed = motion_args;
-  initial_position = {state[LO], state[HI]};
+  if (typed_shape.is_plane()) {
+    typed_shape.lo = state[LO];
+    typed_shape.hi = state[HI];
+    initial_position = typed_shape.has_lo ? typed_shape.lo : typed_shape.hi;
+    make_shape();
+  }
   motion_args = eepa::MotionArguments();
   motion_args.drive = static_cast<WallDrive>(static_cast<int>(state[DRIVE]));
   motion.drive = motion_args.drive;
@@ -303,11 +383,36 @@ void FixWallGranEepa::take_up_motion(const std::vector<double> &state)
   platen.velocity = state[PLATEN_VELOCITY];
   platen.work = state[PLATEN_WORK];
   platen.dissipated = state[PLATEN_DISSIPATED];
-  place_surfaces();
+  motion_args.load.axis = static_cast<int>(state[LOAD_AXIS]);
+  motion_args.rotates = state[ROTATES] != 0.0;
+  std::copy_n(state.begin() + POINT, 3, motion_args.rotation.point.begin());
+  std::copy_n(state.begin() + AXIS, 3, motion_args.rotation.axis.begin());
+  placement.begun_at = Eigen::Quaterniond(state[BEGUN_AT], state[BEGUN_AT + 1], state[BEGUN_AT + 2],
+                                          state[BEGUN_AT + 3]);
+  placement.shift_begun_at = vector_at(state, SHIFT_BEGUN_AT);
+  placement.pivot = vector_at(state, PIVOT);
+  placement.axis = vector_at(state, AXIS);
+  placement.turn_to(state[ANGLE]);
+  angle_before = state[ANGLE_BEFORE];
+  angular_speed = state[ANGULAR_SPEED];
+  measure_rotation();
+  if (region_shape) {
+    RegionMotion &region = region_shape->motion;
+    region.step = static_cast<bigint>(state[REGION_STEP]);
+    region.displacement = vector_at(state, REGION_DISPLACEMENT);
+    region.angle = state[REGION_ANGLE];
+    region.velocity = vector_at(state, REGION_VELOCITY);
+    region.angular_velocity = vector_at(state, REGION_ANGULAR_VELOCITY);
+  }
+  place_wall();
 
   const bool same_wiggle = typed.wiggle_axis == motion.wiggle_axis &&
       typed.amplitude == motion.amplitude && typed.period == motion.period;
-  if (typed.drive != motion_args.drive || loaded() ||
+  const bool same_rotation = typed.rotates == motion_args.rotates &&
+      (!typed.rotates ||
+       (typed.rotation.axis == motion_args.rotation.axis &&
+        typed.rotation.point == motion_args.rotation.point));
+  if (typed.drive != motion_args.drive || loaded() || !same_rotation ||
       (typed.drive == WallDrive::wiggle && !same_wiggle)) {
     change_motion(typed);
     return;
@@ -318,83 +423,9 @@ void FixWallGranEepa::take_up_motion(const std::vector<double> &state)
     if (motion_args.velocity[k].variable.empty()) motion.given[k] = motion_args.velocity[k].value;
   sliding = motion_args.shear.value;
   if (motion_args.slides && !motion_args.shear.variable.empty())
-    sliding = surfaces.is_plane() || motion_args.shear_axis == 2
+    sliding = typed_shape.is_plane() || motion_args.shear_axis == 2
         ? state[SURFACE_VELOCITY + motion_args.shear_axis]
         : state[SURFACE_SPEED];
-  place_surfaces();
-}
-
-/* ---------------------------------------------------------------------- particles */
-
-int FixWallGranEepa::maxsize_restart()
-{
-  return 3 + surfaces.count() * (1 + history_size);
-}
-
-int FixWallGranEepa::size_restart(int i)
-{
-  int contacts = 0;
-  for (int surface = 0; surface < surfaces.count(); surface++)
-    if (history[i][surface * history_size + eepa::MAX_OVERLAP] != 0.0) contacts++;
-  return 3 + contacts * (1 + history_size);
-}
-
-int FixWallGranEepa::pack_restart(int i, double *buf)
-{
-  int at = 3, contacts = 0;
-  for (int surface = 0; surface < surfaces.count(); surface++) {
-    const double *values = history[i] + static_cast<std::ptrdiff_t>(surface) * history_size;
-    if (values[eepa::MAX_OVERLAP] == 0.0) continue;
-    buf[at] = surfaces.face(surface);
-    std::copy_n(values, history_size, buf + at + 1);
-    at += 1 + history_size;
-    contacts++;
-  }
-  buf[0] = at;    // first, because other fixes skip over it
-  buf[1] = history_size;
-  buf[2] = contacts;
-  return at;
-}
-
-void FixWallGranEepa::unpack_restart(int i, int nth)
-{
-  const double *extra = atom->extra[i];
-  const auto refuse = [this, i](const char *name, double value) {
-    error->one(FLERR,
-               "fix {} wall/gran/eepa: the restart file is damaged at atom {}: {} of its contacts "
-               "with the wall = {}",
-               id, atom->tag[i], name, value);
-  };
-  // number of values that all fixes together have for one atom
-  const double end = atom->nextra_store;
-  double start = 0.0;
-  for (int k = 0; k <= nth; k++) {
-    const double length = start < end ? extra[static_cast<int>(start)] : 0.0;
-    if (!is_count(length, 1.0, end - start)) refuse("length", length);
-    if (k < nth) start += length;
-  }
-  const double *entry = extra + static_cast<int>(start);
-  if (entry[0] < 3.0) refuse("length", entry[0]);
-  if (entry[1] != history_size)
-    error->one(
-        FLERR,
-        "fix {} wall/gran/eepa: the restart file has {} values a contact at atom {} and the "
-        "fix needs {}: rolling sds and twisting can not be switched on or off with a restart",
-        id, entry[1], atom->tag[i], history_size);
-  const double contacts = entry[2];
-  if (!is_count(contacts, 0.0, surfaces.count())) refuse("number", contacts);
-  if (entry[0] != 3.0 + contacts * (1 + history_size)) refuse("length", entry[0]);
-
-  std::fill_n(history[i], n_values, 0.0);
-  for (int c = 0; c < static_cast<int>(contacts); c++) {
-    const double *contact = entry + 3 + static_cast<std::ptrdiff_t>(c) * (1 + history_size);
-    int surface = 0;
-    while (surface < surfaces.count() && surfaces.face(surface) != contact[0]) surface++;
-    if (surface == surfaces.count()) refuse("face", contact[0]);
-    double *values = history[i] + static_cast<std::ptrdiff_t>(surface) * history_size;
-    std::copy_n(contact + 1, history_size, values);
-    for (int k = 0; k < history_size; k++)
-      if (!std::isfinite(values[k])) refuse("history", values[k]);
-    if (values[eepa::MAX_OVERLAP] <= 0.0) refuse("delta_max", values[eepa::MAX_OVERLAP]);
-  }
+  if (motion_args.rotation.speed.variable.empty()) angular_speed = motion_args.rotation.speed.value;
+  place_wall();
 }

@@ -29,6 +29,11 @@ namespace {
 
 }    // namespace
 
+bool is_count(double value, double least, double most)
+{
+  return value >= least && value <= most && value == std::floor(value);
+}
+
 std::array<double, packed_style_size> pack(const StyleArguments &style)
 {
   const LawSettings &s = style.settings;

@@ -13,6 +13,9 @@
 
 namespace eepa {
 
+/// Whether a number of a file is an integer within bounds.
+bool is_count(double value, double least, double most);
+
 constexpr std::size_t packed_style_size = 8;
 constexpr std::size_t packed_parameters_size = parameter_count;
 

@@ -18,13 +18,15 @@ template <class Real> struct Body {
 };
 
 /// The point of a wall that is nearest to a particle. The wall is a partner of infinite mass and
-/// radius that does not spin.
+/// radius.
 template <class Real> struct WallPoint {
   Vector3<Real> normal;      ///< unit vector from the wall to the particle's centre
   Real overlap;              ///< radius less distance [length]
-  Vector3<Real> velocity;    ///< of the wall at that point [length/time]
-  Vector3<Real>
-      normal_rate;    ///< du/dt while the particle moves along the wall; 0 at a plane [1/time]
+  Vector3<Real> velocity;    ///< of the wall in the middle of the overlap [length/time]
+  /// du/dt while particle and wall move; 0 at a plane that does not turn [1/time]
+  Vector3<Real> normal_rate;
+  /// of the wall; its surface may move without it, as a conveyor belt does [1/time]
+  Vector3<Real> angular_velocity = Vector3<Real>::Zero();
 };
 
 /// Force and torques of a contact on its partners.
@@ -67,6 +69,12 @@ EEPA_FUNCTION ContactOf<Real> contact_of(const Body<Real> &i, const Body<Real> &
   return contact;
 }
 
+/// The middle of a particle's overlap with a wall, where their force acts. [length]
+EEPA_FUNCTION Vec3 middle_of_overlap(const Body<double> &i, const Vec3 &normal, double overlap)
+{
+  return i.x - lever_arm(i.radius, overlap) * normal;
+}
+
 /// The contact of a particle and a wall.
 /// \param time_step  as in contact_of()
 template <class Real>
@@ -84,10 +92,27 @@ EEPA_FUNCTION ContactOf<Real> contact_at_wall(const Body<Real> &i, const WallPoi
   contact.arm_i = lever_arm(i.radius, wall.overlap);
   contact.arm_j = 0.0;
   contact.spin = contact.arm_i * i.omega;
-  contact.angular_velocity = i.omega;
+  contact.angular_velocity = i.omega - wall.angular_velocity;
   contact.turn = Real(0.5 * time_step) * wall.normal_rate;
-  contact.twist = twist_of_pair<Real>(wall.normal, i.omega, time_step);
+  contact.twist = twist_of_pair<Real>(wall.normal, i.omega + wall.angular_velocity, time_step);
   return contact;
+}
+
+/// Work per time that a moving wall does on a particle [force length/time]
+EEPA_FUNCTION double power_of_wall(const Wrench<double> &wrench, const Contact &contact,
+                                   const WallPoint<double> &wall)
+{
+  const Vec3 couple = wrench.torque_i + contact.arm_i * contact.normal.cross(wrench.force);
+  return dot(wrench.force, wall.velocity) + dot(couple, wall.angular_velocity);
+}
+
+/// Moment of a contact on the wall about a point. Particle and wall together keep their angular
+/// momentum. [force length]
+EEPA_FUNCTION Vec3 moment_on_wall(const Wrench<double> &wrench, const Vec3 &centre,
+                                  const Vec3 &about)
+{
+  const Vec3 arm = centre - about;
+  return -(arm.cross(wrench.force) + wrench.torque_i);
 }
 
 /// Whether an overlap exceeds a radius. The centre of one particle then lies within the other, and

@@ -42,7 +42,7 @@ EEPA_FUNCTION Vector3<Real> turn_of_pair(const Vector3<Real> &normal, const Vect
 
 /// Angle by which the pair turns about u in a step, with its mean angular velocity. Its springs
 /// turn with it, so that a pair that rotates rigidly keeps them unchanged relative to itself.
-/// \param angular_sum  omega_i + omega_j; a wall does not turn [1/time]
+/// \param angular_sum  omega_i + omega_j [1/time]
 template <class Real>
 EEPA_FUNCTION Real twist_of_pair(const Vector3<Real> &normal, const Vector3<Real> &angular_sum,
                                  double time_step)

@@ -28,6 +28,9 @@ template <bool Rolling, bool Twisting> struct HistoryLayout {
   static constexpr int size = twisting_spring + (Twisting ? 1 : 0);
 };
 
+/// Number of values of the largest layout.
+constexpr int max_history_size = HistoryLayout<true, true>::size;
+
 /// Number of values of a contact's state, for models chosen at run time.
 EEPA_FUNCTION int history_size(RollingModel rolling, TwistingModel twisting)
 {

@@ -106,15 +106,21 @@ bool is_quantity(const eepa::Quantity &quantity)
 
 void check_shape(const WallShape &shape)
 {
-  REQUIRE(shape.kind >= WallShape::xplane && shape.kind <= WallShape::zcylinder);
-  REQUIRE(shape.count() == 1 || shape.count() == 2);
+  REQUIRE(shape.kind >= 0 && shape.kind < WallShape::kind_count);
   if (!shape.is_plane()) {
-    REQUIRE(std::isfinite(shape.radius) && shape.radius > 0.0);
+    REQUIRE(shape.planes() == 0 && std::isfinite(shape.radius));
+    REQUIRE((shape.kind == WallShape::zcylinder) == (shape.radius > 0.0));
+    REQUIRE((shape.kind == WallShape::region) == !shape.region_id.empty());
+    REQUIRE((shape.kind == WallShape::mesh) == !shape.file.empty());
+    REQUIRE(std::isfinite(shape.placement.scale) && shape.placement.scale > 0.0);
+    REQUIRE(std::isfinite(shape.placement.degrees));
+    REQUIRE(shape.smooth >= 0.0 && shape.smooth < 90.0);
     return;
   }
+  REQUIRE(shape.planes() == 1 || shape.planes() == 2);
   REQUIRE(shape.axis() >= 0 && shape.axis() < 3);
   REQUIRE(std::isfinite(shape.lo) && std::isfinite(shape.hi));
-  if (shape.count() == 2) REQUIRE(shape.lo < shape.hi);
+  if (shape.planes() == 2) REQUIRE(shape.lo < shape.hi);
 }
 
 void check_motion(const MotionArguments &motion, const WallShape &shape)
@@ -135,8 +141,19 @@ void check_motion(const MotionArguments &motion, const WallShape &shape)
     REQUIRE(motion.drive == WallDrive::shear || motion.drive == WallDrive::load);
     REQUIRE(!shape.is_plane() || motion.shear_axis != shape.axis());
   }
+  if (motion.drive == WallDrive::rotate) REQUIRE(motion.rotates);
+  if (motion.rotates) {
+    REQUIRE(motion.drive != WallDrive::shear && motion.drive != WallDrive::still);
+    REQUIRE(!motion.slides && is_quantity(motion.rotation.speed));
+    double squared = 0.0;
+    for (const double component : motion.rotation.axis) squared += component * component;
+    REQUIRE(std::fabs(squared - 1.0) < 1e-14);
+    for (const double component : motion.rotation.point) REQUIRE(std::isfinite(component));
+  }
   if (motion.drive != WallDrive::load) return;
-  REQUIRE(shape.is_plane() && shape.count() == 1);
+  REQUIRE(shape.planes() != 2 && shape.kind != WallShape::zcylinder);
+  REQUIRE(motion.load.axis >= 0 && motion.load.axis < 3);
+  REQUIRE(!shape.is_plane() || motion.load.axis == shape.axis());
   const eepa::LoadArguments &load = motion.load;
   REQUIRE(is_quantity(load.force) && is_quantity(load.pressure) && is_quantity(load.area));
   REQUIRE(std::isfinite(load.mass) && load.mass > 0.0);
@@ -175,19 +192,24 @@ void parse_wall(const Words &words)
   check_parameters(wall.parameters, wall.style.settings);
   check_shape(wall.shape);
   check_motion(wall.motion, wall.shape);
-  REQUIRE(wall.contact_table == eepa::contains(words, "contacts"));
+  REQUIRE(!wall.contact_table || eepa::contains(words, "contacts"));
+  REQUIRE(wall.face_interval >= 0);
+  REQUIRE(wall.face_interval == 0 || wall.shape.kind == WallShape::mesh);
+  for (const double component : wall.about) REQUIRE(std::isfinite(component));
 }
 
 void parse_wall_change(const Words &words)
 {
-  WallShape planes[3];
-  planes[0].has_lo = true;
-  planes[1].kind = WallShape::xplane;
-  planes[1].has_lo = planes[1].has_hi = true;
-  planes[1].hi = 1.0;
-  planes[2].kind = WallShape::zcylinder;
-  planes[2].radius = 1.0;
-  for (const WallShape &shape : planes) {
+  WallShape shapes[5];
+  shapes[0].has_lo = true;
+  shapes[1].kind = WallShape::xplane;
+  shapes[1].has_lo = shapes[1].has_hi = true;
+  shapes[1].hi = 1.0;
+  shapes[2].kind = WallShape::zcylinder;
+  shapes[2].radius = 1.0;
+  shapes[3].kind = WallShape::region;
+  shapes[4].kind = WallShape::mesh;
+  for (const WallShape &shape : shapes) {
     MotionArguments motion;
     motion.amplitude = 77.0;
     std::size_t read = 0;

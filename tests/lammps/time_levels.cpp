@@ -7,15 +7,12 @@
 
 #include "simulation.h"
 
-#include "wall_surface.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
 using namespace eepa_test;
-using LAMMPS_NS::WallSurfaces;
 
 namespace {
 
@@ -89,31 +86,6 @@ TEST(Groove, GrainLeavesAtTheSamePlaceWithAnyTimeStep)
     // resolution by the steps: 0.002 at a speed of 0.6, over a path of radius 0.32
     EXPECT_NEAR(grain_leaves_at(0.5, 3e4, time_step), fine, 0.25) << time_step;
   }
-}
-
-// du/dt against the normals at two positions.
-TEST(WallSurfaces, NormalOfACylinderTurnsWithTheMotion)
-{
-  WallSurfaces cylinder;
-  cylinder.kind = WallSurfaces::zcylinder;
-  cylinder.radius = 2.0;
-  cylinder.displacement = {0.1, -0.2, 0.0};
-  const Vec3 v(0.3, -0.7, 0.4);
-  const double h = 1e-5;
-  for (const double from_axis : {1.6, 2.4}) {    // inside and outside
-    const Vec3 x = Vec3(0.1, -0.2, 0.0) + from_axis * Vec3(0.6, 0.8, 0.5);
-    const auto at = [&](double time) {
-      const eepa::Body<double> particle = {x + time * v, v, Vec3::Zero(), 0.5, 1.0};
-      return cylinder.nearest(0, particle);
-    };
-    const Vec3 rate = (at(h).normal - at(-h).normal) / (2.0 * h);
-    EXPECT_GT(rate.norm(), 0.1);
-    EXPECT_LT((at(0.0).normal_rate - rate).norm(), 1e-9);
-  }
-  WallSurfaces plane;
-  plane.has_lo = true;
-  const eepa::Body<double> particle = {Vec3(1, 2, 0.4), v, Vec3::Zero(), 0.5, 1.0};
-  EXPECT_EQ(plane.nearest(0, particle).normal_rate, Vec3(Vec3::Zero()));
 }
 
 }    // namespace

@@ -419,7 +419,7 @@ TEST(MotionKeywords, MayHaveContactsBetweenThem)
   simulation(wall + "shear x 0.1 contacts load 1 mass 1\nunfix v\n" + wall +
              "load 1 mass 1 contacts shear x 0.1\nunfix v");
   EXPECT_TRUE(refuses(simulation, wall + "still contacts velocity 0 0 1",
-                      "only one of velocity, wiggle, shear and load is allowed"));
+                      "only one of velocity, wiggle, shear, load and rotate is allowed"));
 }
 
 TEST(LoadedWall, HasFiniteEnergiesWithoutTime)

@@ -64,14 +64,14 @@ TEST(Wall, HasTheSurfacesThatAreTyped)
   EXPECT_TRUE(lower.has_lo && !lower.has_hi);
   EXPECT_EQ(lower.lo, -3.0);
   EXPECT_EQ(lower.axis(), 1);
-  EXPECT_EQ(lower.count(), 1);
+  EXPECT_EQ(lower.planes(), 1);
   const WallShape upper = wall_of(COEFF "wall zplane NULL 4").shape;
   EXPECT_TRUE(!upper.has_lo && upper.has_hi);
   EXPECT_EQ(upper.hi, 4.0);
   const WallShape cylinder = wall_of(COEFF "wall zcylinder 0.25").shape;
   EXPECT_FALSE(cylinder.is_plane());
   EXPECT_EQ(cylinder.radius, 0.25);
-  EXPECT_EQ(cylinder.count(), 2);
+  EXPECT_EQ(cylinder.planes(), 0);
   EXPECT_STREQ(cylinder.kind_name(), "zcylinder");
 }
 
@@ -126,9 +126,64 @@ TEST(Motion, IsWhatIsTyped)
     EXPECT_TRUE(wall_of(std::string(COEFF "wall zcylinder 1 shear ") + dim + " 2").motion.slides);
 }
 
+TEST(Wall, IsARegionOrAMesh)
+{
+  const WallArguments region = wall_of(COEFF "wall region hopper contacts velocity 0 0 1");
+  EXPECT_EQ(region.shape.kind, WallShape::region);
+  EXPECT_EQ(region.shape.region_id, "hopper");
+  EXPECT_TRUE(region.contact_table);
+  EXPECT_EQ(region.motion.velocity[2].value, 1.0);
+  const WallShape plain = wall_of(COEFF "wall mesh drum.stl").shape;
+  EXPECT_EQ(plain.kind, WallShape::mesh);
+  EXPECT_EQ(plain.file, "drum.stl");
+  EXPECT_EQ(plain.placement.scale, 1.0);
+  EXPECT_EQ(plain.smooth, WallShape::default_smooth);
+  const WallArguments mesh = wall_of(
+      COEFF "wall mesh lid.stl offset 1 2 3 scale 1e-3 rotation 0 2 0 90 smooth 30 faces 100 "
+            "about 7 8 9 still");
+  EXPECT_EQ(mesh.shape.placement.scale, 1e-3);
+  EXPECT_EQ(mesh.shape.placement.axis, (std::array<double, 3>{0.0, 2.0, 0.0}));
+  EXPECT_EQ(mesh.shape.placement.degrees, 90.0);
+  EXPECT_EQ(mesh.shape.placement.offset, (std::array<double, 3>{1.0, 2.0, 3.0}));
+  EXPECT_EQ(mesh.shape.smooth, 30.0);
+  EXPECT_EQ(mesh.face_interval, 100);
+  EXPECT_EQ(mesh.about, (std::array<double, 3>{7.0, 8.0, 9.0}));
+}
+
+TEST(Motion, TurnsBesideOtherDrives)
+{
+  const MotionArguments alone = motion_of("rotate 1 2 3 0 0 -4 v_omega");
+  EXPECT_EQ(alone.drive, WallDrive::rotate);
+  EXPECT_TRUE(alone.rotates);
+  EXPECT_EQ(alone.rotation.point, (std::array<double, 3>{1.0, 2.0, 3.0}));
+  EXPECT_EQ(alone.rotation.axis, (std::array<double, 3>{0.0, 0.0, -1.0}));
+  EXPECT_EQ(alone.rotation.speed.variable, "omega");
+  for (const char *line :
+       {"rotate 0 0 0 0 0 1 5 velocity 1 0 0", "velocity 1 0 0 rotate 0 0 0 0 0 1 5"}) {
+    const MotionArguments both = motion_of(line);
+    EXPECT_EQ(both.drive, WallDrive::velocity) << line;
+    EXPECT_TRUE(both.rotates) << line;
+    EXPECT_EQ(both.rotation.speed.value, 5.0) << line;
+  }
+  EXPECT_TRUE(motion_of("rotate 0 0 0 0 0 1 5 wiggle z 1 1").rotates);
+  // a lid that is pressed and turned
+  for (const char *line : {"load z -5 mass 1 limits -1 0 rotate 0 0 0 3 0 4 5",
+                           "rotate 0 0 0 3 0 4 5 load z -5 mass 1 limits -1 0"}) {
+    const MotionArguments lid = wall_of(std::string(COEFF "wall mesh lid.stl ") + line).motion;
+    EXPECT_EQ(lid.drive, WallDrive::load) << line;
+    EXPECT_EQ(lid.load.axis, 2) << line;
+    EXPECT_EQ(lid.load.force.value, -5.0) << line;
+    EXPECT_EQ(lid.load.lowest, -1.0) << line;
+    EXPECT_TRUE(lid.rotates) << line;
+    EXPECT_EQ(lid.rotation.axis, (std::array<double, 3>{0.6, 0.0, 0.8})) << line;
+  }
+  EXPECT_EQ(wall_of(COEFF "wall region lid load x pressure 2 area 3 mass 1").motion.load.axis, 0);
+}
+
 TEST(Motion, HasANameForEachDrive)
 {
-  for (const char *line : {"still", "velocity 0 0 0", "wiggle x 1 1", "shear x 1", "load 1 mass 1"})
+  for (const char *line : {"still", "velocity 0 0 0", "wiggle x 1 1", "shear x 1", "load 1 mass 1",
+                           "rotate 0 0 0 0 0 1 2"})
     EXPECT_EQ(name_of(motion_of(line).drive), words(line)[0]);
 }
 
@@ -229,7 +284,8 @@ TEST_P(WallMistake, IsNamed)
             GetParam().message);
 }
 #define PLANE COEFF "wall xplane 0 NULL "
-#define UNKNOWN_KEYWORD " is unknown: it must be velocity, wiggle, shear, load, still or contacts"
+#define UNKNOWN_KEYWORD \
+  " is unknown: it must be velocity, wiggle, shear, load, rotate, still, contacts, about or faces"
 const Mistake wall_mistakes[] = {
     {"", "missing value: law (plateau, linear or luding)"},
     {"linear", "missing keyword coeff"},
@@ -238,9 +294,42 @@ const Mistake wall_mistakes[] = {
     {"linear coeff 1 2 3 -4", "missing value: mu"},
     {"linear coeff 1 2 3 wall xplane 0 1", "missing value: f0"},
     {COEFF, "missing keyword wall"},
-    {COEFF "wall", "missing value: kind of wall (xplane, yplane, zplane or zcylinder)"},
+    {COEFF "wall region", "missing value: wall region ID"},
+    {COEFF "wall mesh", "missing value: wall mesh FILE"},
+    {COEFF "wall mesh a.stl scale 0", "mesh scale = 0 is not allowed: it must be > 0"},
+    {COEFF "wall mesh a.stl scale 1 scale 2", "keyword scale is given twice"},
+    {COEFF "wall mesh a.stl rotation 0 0 0 90",
+     "mesh rotation axis = 0 0 0 is not allowed: it must have a direction"},
+    {COEFF "wall mesh a.stl rotation 0 0 1", "missing value: mesh rotation ax ay az degrees"},
+    {COEFF "wall mesh a.stl offset 0 x 1", "mesh offset = x is not a finite number"},
+    {COEFF "wall mesh a.stl smooth 90",
+     "mesh smooth = 90 is not allowed: it must be >= 0 and < 90 degrees"},
+    {COEFF "wall mesh a.stl faces 0",
+     "faces = 0 is not allowed: it must be a whole number of steps, >= 1"},
+    {COEFF "wall mesh a.stl faces 1.5",
+     "faces = 1.5 is not allowed: it must be a whole number of steps, >= 1"},
+    {COEFF "wall mesh a.stl faces 2 faces 2", "keyword faces is given twice"},
+    {COEFF "wall zplane 0 NULL faces 5",
+     "faces is not allowed with wall zplane: only a mesh has faces to tell of"},
+    {COEFF "wall zplane 0 NULL about 1 2", "missing value: about x y z"},
+    {COEFF "wall region r shear x 1",
+     "shear is not allowed with wall region: it needs planes or a cylinder; use velocity or "
+     "rotate"},
+    {COEFF "wall mesh a.stl load 5 mass 1",
+     "load dimension '5' is not allowed: it must be x, y or z"},
+    {COEFF "wall zplane 0 NULL rotate 0 0 0 0 0 0 1",
+     "rotate axis = 0 0 0 is not allowed: it must have a direction"},
+    {COEFF "wall zplane 0 NULL rotate 0 0 0 0 0 1",
+     "missing value: rotate px py pz ax ay az omega"},
+    {COEFF "wall zplane 0 NULL rotate 0 0 0 0 0 1 1 shear x 1",
+     "only one of velocity, wiggle, shear, load and rotate is allowed, or load and shear, or "
+     "rotate beside velocity, wiggle or load: rotate and shear are given"},
+    {COEFF "wall zplane 0 NULL load 5 mass 1 rotate 0 0 0 1 0 1 1",
+     "rotate beside load: a plane must turn about its normal, so that its load does not turn"},
+    {COEFF "wall",
+     "missing value: kind of wall (xplane, yplane, zplane, zcylinder, region or mesh)"},
     {COEFF "wall sphere 1",
-     "wall 'sphere' is unknown: it must be xplane, yplane, zplane or zcylinder"},
+     "wall 'sphere' is unknown: it must be xplane, yplane, zplane, zcylinder, region or mesh"},
     {COEFF "wall xplane", "missing value: wall planes lo hi"},
     {COEFF "wall xplane 0", "missing value: wall planes lo hi"},
     {COEFF "wall yplane NULL NULL", "wall yplane NULL NULL has no surface: give lo, hi or both"},
@@ -266,11 +355,13 @@ const Mistake wall_mistakes[] = {
     {PLANE "velocity 1 2 contacts", "missing value: velocity vx vy vz"},
     {PLANE "velocity 1 v_ 2", "velocity = v_ names no variable"},
     {PLANE "velocity 1 0 0 wiggle x 1 1",
-     "only one of velocity, wiggle, shear and load is allowed, or load and shear: velocity and "
+     "only one of velocity, wiggle, shear, load and rotate is allowed, or load and shear, or "
+     "rotate beside velocity, wiggle or load: velocity and "
      "wiggle "
      "are given"},
     {PLANE "shear y 1 load 1 mass 1 shear y 1",
-     "only one of velocity, wiggle, shear and load is allowed, or load and shear: load and shear "
+     "only one of velocity, wiggle, shear, load and rotate is allowed, or load and shear, or "
+     "rotate beside velocity, wiggle or load: load and shear "
      "are "
      "given"},
     {PLANE "wiggle x 1", "missing value: wiggle dim A period"},
@@ -285,9 +376,10 @@ const Mistake wall_mistakes[] = {
      "its normal"},
     {PLANE "shear y nan", "shear v = nan is not a finite number"},
     {COEFF "wall xplane 0 1 load 1 mass 1",
-     "load is not allowed with wall lo hi: it needs one plane alone, lo or hi"},
+     "load is not allowed with wall lo hi: it needs one plane alone, lo or hi, a region or a mesh"},
     {COEFF "wall zcylinder 1 load 1 mass 1",
-     "load is not allowed with wall zcylinder: it needs one plane alone, lo or hi"},
+     "load is not allowed with wall zcylinder: it needs one plane alone, lo or hi, a region or a "
+     "mesh"},
     {PLANE "load", "missing value: load force"},
     {PLANE "load x mass 1", "load force = x is not a finite number"},
     {PLANE "load pressure", "missing value: load pressure"},

@@ -11,21 +11,20 @@ namespace eepa {
 /// A place where a sphere and a shape touch or nearly touch: the point of one face that is nearest to the
 /// sphere's centre.
 struct SurfacePoint {
-  int face = 0;              ///< which contact of the sphere this is, see Shape
-  Vec3 normal;               ///< unit vector from the surface to the centre
-  double distance = 0.0;     ///< of the centre; negative behind the one face of a half space [length]
+  int face = 0;                  ///< which contact of the sphere this is, see Shape
+  Vec3 normal = Vec3::Zero();    ///< unit vector from the surface to the centre
+  double distance =
+      0.0;    ///< of the centre; negative behind the one face of a half space [length]
   /// Change of the normal with the motion of the centre along the surface: 0 at a flat face, 1/distance
   /// at an edge or a corner, 1/r outside of a cylinder, -1/r inside [1/length]
   double curvature = 0.0;
-  Vec3 straight;             ///< unit vector along which the normal stays the same, or 0
+  Vec3 straight = Vec3::Zero();    ///< unit vector along which the normal stays the same, or 0
+};
 
-  /// du/dt while the centre moves [1/time]
-  /// \param velocity  of the centre relative to the shape [length/time]
-  Vec3 normal_rate(const Vec3 &velocity) const
-  {
-    const Vec3 along = velocity - dot(velocity, normal) * normal;
-    return curvature * (along - dot(along, straight) * straight);
-  }
+/// Velocity of a surface at one point.
+struct SurfaceVelocity {
+  Vec3 linear = Vec3::Zero();     ///< [length/time]
+  Vec3 angular = Vec3::Zero();    ///< [1/time]
 };
 
 /// A surface that spheres touch, fixed in a frame of its own. It knows geometry only: no law, no
@@ -52,6 +51,24 @@ class Shape {
   /// The point of a face that is nearest to a centre, at any distance.
   virtual SurfacePoint nearest(int face, const Vec3 &centre) const = 0;
 
+  /// du/dt while the centre moves [1/time]
+  /// \param velocity  of the centre relative to the shape's frame [length/time]
+  virtual Vec3 normal_rate(const SurfacePoint &point, const Vec3 & /*centre*/,
+                           const Vec3 &velocity) const
+  {
+    const Vec3 along = velocity - dot(velocity, point.normal) * point.normal;
+    return point.curvature * (along - dot(along, point.straight) * point.straight);
+  }
+
+  /// Whether the surface moves in its own frame. Then visit() sees its present position, and nothing is
+  /// known of where it will be in the next step.
+  virtual bool moves() const { return false; }
+  /// Velocity of the surface in its own frame.
+  virtual SurfaceVelocity velocity(const SurfacePoint &, const Vec3 & /*centre*/) const
+  {
+    return {};
+  }
+
   /// Whether a contact that was at `face` is the one that is at `now` in this step, because the sphere
   /// slides or rolls from one face to the next one.
   virtual bool continues(int face, const SurfacePoint &now, const Vec3 & /*centre*/) const
@@ -66,6 +83,12 @@ class Shape {
   /// axis moves no point further than that times the angle.
   /// \param axis  unit vector
   virtual double extent(const Vec3 &point, const Vec3 &axis) const = 0;
+
+  /// Largest distance by which a shift of the shape brings its surface nearer to any point [length]
+  virtual double approach(const Vec3 &shift) const { return shift.norm(); }
+
+  /// A number that differs between shapes of different faces, for restart files; below 2^53.
+  virtual double check() const { return 0.0; }
 
   /// Whether a number of a face, read from a file, is one of this shape.
   virtual bool has_face(int face) const = 0;

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "region_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace LAMMPS_NS;
+using eepa::SurfacePoint;
+using eepa::Vec3;
+
+void RegionShape::update(bigint step, double time_step)
+{
+  if (!region_->dynamic_check()) return;
+  region_->prematch();
+  if (motion.step == step) return;
+  // The region's own velocities are wrong in the first step that it is asked for, and where its axis is not
+  // typed as a unit vector. Only the directions are taken from it.
+  const bool first = motion.step < 0;
+  region_->set_velocity();
+  const Vec3 place(region_->dx, region_->dy, region_->dz);
+  motion.velocity.setZero();
+  motion.angular_velocity.setZero();
+  if (!first && region_->moveflag) motion.velocity = (place - motion.displacement) / time_step;
+  if (!first && region_->rotateflag) {
+    const Vec3 along(region_->omega);
+    if (along.norm() > 0.0)
+      motion.angular_velocity =
+          std::fabs(region_->theta - motion.angle) / time_step * along.normalized();
+  }
+  size_rate_known_ = !first;
+  if (region_->moveflag) motion.displacement = place;
+  if (region_->rotateflag) motion.angle = region_->theta;
+  motion.step = step;
+}
+
+/// \return number of places nearer than `reach`, in the region's own list
+int RegionShape::contacts(const Vec3 &centre, double reach) const
+{
+  if (!region_->match(centre[0], centre[1], centre[2])) return 0;
+  return region_->surface(centre[0], centre[1], centre[2], reach);
+}
+
+SurfacePoint RegionShape::point_of(int contact) const
+{
+  const Region::Contact &c = region_->contact[contact];
+  SurfacePoint point;
+  point.face = c.iwall;
+  point.distance = c.r;
+  if (c.r > 0.0) point.normal = Vec3(c.delx, c.dely, c.delz) / c.r;
+  return point;
+}
+
+bool RegionShape::collect(const Vec3 &centre, double reach, std::vector<int> &) const
+{
+  return contacts(centre, reach) > 0;
+}
+
+void RegionShape::visit(const Vec3 &centre, double radius, const int *, int,
+                        std::vector<SurfacePoint> &found) const
+{
+  const int count = contacts(centre, radius);
+  for (int k = 0; k < count; k++) {
+    const SurfacePoint point = point_of(k);
+    // on the surface itself no direction is known; the step before has warned of the overlap
+    if (point.distance > 0.0) found.push_back(point);
+  }
+}
+
+int RegionShape::find(int face, const Vec3 &normal, const Vec3 &centre, double reach) const
+{
+  int best = -1;
+  double closest = -std::numeric_limits<double>::infinity();
+  const int count = contacts(centre, reach);
+  for (int k = 0; k < count; k++) {
+    const SurfacePoint point = point_of(k);
+    if (point.face != face) continue;
+    const double alike = eepa::dot(point.normal, normal);
+    if (alike <= closest) continue;
+    closest = alike;
+    best = k;
+  }
+  return best;
+}
+
+SurfacePoint RegionShape::nearest(int face, const Vec3 &centre) const
+{
+  const int k = find(face, Vec3::Zero(), centre, std::numeric_limits<double>::max());
+  if (k >= 0) return point_of(k);
+  SurfacePoint unknown;    // the centre is on the other side
+  unknown.face = face;
+  return unknown;
+}
+
+/// From the normals a little before and behind the centre, because a region does not tell how its
+/// surface is curved.
+Vec3 RegionShape::normal_rate(const SurfacePoint &point, const Vec3 &centre,
+                              const Vec3 &velocity) const
+{
+  const eepa::SurfaceVelocity own = this->velocity(point, centre);
+  Vec3 along = velocity - own.linear;
+  along -= eepa::dot(along, point.normal) * point.normal;
+  const Vec3 rotation = own.angular.cross(point.normal);
+  const double speed = along.norm();
+  if (!(speed > 0.0)) return rotation;
+  const double step = 1e-4 * point.distance;
+  const Vec3 shift = step / speed * along;
+  const double reach = 2.0 * point.distance;
+  const int ahead = find(point.face, point.normal, centre + shift, reach);
+  if (ahead < 0) return rotation;
+  const Vec3 normal_ahead = point_of(ahead).normal;
+  const int behind = find(point.face, point.normal, centre - shift, reach);
+  if (behind < 0) return rotation;
+  const Vec3 rate = 0.5 * speed / step * (normal_ahead - point_of(behind).normal);
+  // rounding of the normals of a flat face is no curvature
+  if (rate.norm() * point.distance < 1e-9 * speed) return rotation;
+  return rate + rotation;
+}
+
+eepa::SurfaceVelocity RegionShape::velocity(const SurfacePoint &point, const Vec3 &centre) const
+{
+  eepa::SurfaceVelocity velocity;
+  if (!moves()) return velocity;
+  velocity.linear = motion.velocity;
+  velocity.angular = motion.angular_velocity;
+  const Vec3 spot = centre - point.distance * point.normal;
+  if (region_->rotateflag) {
+    const Vec3 pivot(region_->rpoint);
+    const Vec3 arm = spot - pivot;
+    velocity.linear += velocity.angular.cross(arm);
+  }
+  if (!region_->varshape || !size_rate_known_) return velocity;
+  const int k = find(point.face, point.normal, centre, 2.0 * point.distance);
+  if (k < 0 || !region_->contact[k].varflag) return velocity;
+  Vec3 growth = Vec3::Zero(), at = spot;
+  region_->velocity_contact_shape(growth.data(), at.data());
+  velocity.linear += growth;
+  return velocity;
+}
+
+/// Goes along the path in steps that can not jump over the surface without a point next to it.
+bool RegionShape::is_between(const Vec3 &before, const Vec3 &now) const
+{
+  const Vec3 path = now - before;
+  const double length = path.norm();
+  constexpr int parts = 64;
+  const double step = length / parts;
+  for (int k = 0; k <= parts; k++)
+    if (region_->surface(before[0] + k * path[0] / parts, before[1] + k * path[1] / parts,
+                         before[2] + k * path[2] / parts, 0.51 * step) > 0)
+      return true;
+  return false;
+}
+
+double RegionShape::extent(const Vec3 &point, const Vec3 &) const
+{
+  if (moves() || !region_->bboxflag) return std::numeric_limits<double>::infinity();
+  const Vec3 corner(std::max(std::fabs(region_->extent_xlo), std::fabs(region_->extent_xhi)),
+                    std::max(std::fabs(region_->extent_ylo), std::fabs(region_->extent_yhi)),
+                    std::max(std::fabs(region_->extent_zlo), std::fabs(region_->extent_zhi)));
+  return corner.norm() + point.norm();
+}
