@@ -223,6 +223,7 @@ class FixWallGranEepa : public Fix {
   void touch(int i, const eepa::Body<double> &, const eepa::Vec3 &centre, int which);
   void part(int i, const eepa::Body<double> &, const eepa::Vec3 &centre,
             const eepa::FaceHistory &, bool member);
+  bool got_through(const eepa::Body<double> &, const eepa::FaceHistory &) const;
   void part_after_setup(int i, const eepa::Body<double> &, const eepa::Vec3 &centre,
                         const int *pieces_of_i, int count);
   eepa::WallPoint<double> wall_point(const eepa::SurfacePoint &, const eepa::Body<double> &,

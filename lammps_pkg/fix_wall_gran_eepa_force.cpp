@@ -219,8 +219,8 @@ void FixWallGranEepa::touch(int i, const eepa::Body<double> &body, const Vec3 &c
   fresh.face = point.face;
   const bool known = history_of_found[which] >= 0;
   FaceHistory &history = known ? histories.mutable_list(i)[history_of_found[which]] : fresh;
-  // a direction does not turn over in a step, unless the centre has got through the face
-  if (eepa::dot(history.normal, point.normal) < 0.0) stop_behind_wall(i);
+  if (eepa::dot(history.normal, point.normal) < 0.0 && got_through(body, history))
+    stop_behind_wall(i);
 
   const eepa::WallPoint<double> wall = wall_point(point, body, centre);
   if (eepa::too_deep(wall.overlap, body.radius)) stop_at_overlap(i, point.face, wall.overlap);
@@ -265,10 +265,7 @@ void FixWallGranEepa::touch(int i, const eepa::Body<double> &body, const Vec3 &c
 void FixWallGranEepa::part(int i, const eepa::Body<double> &body, const Vec3 &centre,
                            const FaceHistory &history, bool member)
 {
-  const Vec3 motion_of_centre =
-      dt * placement.direction_to_shape(body.v - placement.velocity_at(body.x));
-  if (member && request.advance && eepa::dot(motion_of_centre, history.normal) < -history.distance)
-    stop_behind_wall(i);
+  if (member && got_through(body, history)) stop_behind_wall(i);
   if (!keep_ledger || (!request.advance && member)) return;
   SurfacePoint point = shape->nearest(history.face, centre);
   if (point.normal == Vec3::Zero()) {
@@ -278,6 +275,15 @@ void FixWallGranEepa::part(int i, const eepa::Body<double> &body, const Vec3 &ce
   const eepa::WallPoint<double> wall = wall_point(point, body, centre);
   const eepa::Contact contact = eepa::contact_at_wall(body, wall, request.time_step);
   book(i, engine->open(coefficients, request, contact, history.values.data()));
+}
+
+/// Whether a centre moved towards a face by so much that it can be behind it. The velocity of the wall is
+/// not exactly that of the step, and a contact that ends moves the other way.
+bool FixWallGranEepa::got_through(const eepa::Body<double> &body, const FaceHistory &history) const
+{
+  if (!request.advance) return false;
+  const Vec3 path = dt * placement.direction_to_shape(body.v - placement.velocity_at(body.x));
+  return eepa::dot(path, history.normal) < -0.5 * history.distance;
 }
 
 /// Books the opening of contacts that the set-up had and the first step has not: the set-up stored
