@@ -240,7 +240,14 @@ void FixWallGranEepa::touch(int i, const eepa::Body<double> &body, const Vec3 &c
   elastic_energy += outcome.energy.total();
   if (keep_ledger) ledger.store(outcome.energy, 1.0);
   if (request.wants_losses) book(i, outcome.lost);
-  if (keep_ledger) power += eepa::power_of_wall(wrench, contact, wall);
+  if (keep_ledger) {
+    // at the end of the step, as the force
+    eepa::WallPoint<double> now = wall;
+    const Vec3 spot = eepa::middle_of_overlap(body, wall.normal, wall.overlap);
+    now.velocity += placement.velocity_at(spot) -
+        placement.velocity_before(spot, body.v, 0.5 * request.time_step);
+    power += eepa::power_of_wall(wrench, contact, now);
+  }
   const Vec3 moment = eepa::moment_on_wall(wrench, body.x, Vec3(about.data()));
   double *force_on_wall = sums.force[typed_shape.planes() == 2 ? point.face : 0];
   for (int k = 0; k < 3; k++) {
@@ -323,7 +330,8 @@ eepa::WallPoint<double> FixWallGranEepa::wall_point(const SurfacePoint &point,
   wall.normal_rate = placement.direction_to_space(
       shape->normal_rate(point, centre, placement.direction_to_shape(relative)));
   const Vec3 spot = eepa::middle_of_overlap(body, wall.normal, wall.overlap);
-  wall.velocity = placement.velocity_at(spot);
+  // as the particle's velocity, that of half a step ago
+  wall.velocity = placement.velocity_before(spot, body.v, 0.5 * request.time_step);
   if (placement.angular_velocity() != Vec3::Zero()) {
     wall.angular_velocity = placement.angular_velocity();
     wall.normal_rate += wall.angular_velocity.cross(wall.normal);

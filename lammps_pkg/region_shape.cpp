@@ -51,9 +51,27 @@ SurfacePoint RegionShape::point_of(int contact) const
   return point;
 }
 
+namespace {
+
+/// Whether any part of a region that stands still has a surface within reach, on either side. What
+/// surface() tells does not suffice: it leaves out places that another part of the region hides
+/// from this centre, though not from the next one.
+bool has_surface_near(Region *region, const Vec3 &centre, double reach)
+{
+  if (region->reglist) {
+    for (int k = 0; k < region->nregion; k++)
+      if (has_surface_near(region->reglist[k], centre, reach)) return true;
+    return false;
+  }
+  double x[3] = {centre[0], centre[1], centre[2]};
+  return region->surface_interior(x, reach) > 0 || region->surface_exterior(x, reach) > 0;
+}
+
+}    // namespace
+
 bool RegionShape::collect(const Vec3 &centre, double reach, std::vector<int> &) const
 {
-  return contacts(centre, reach) > 0;
+  return moves() ? contacts(centre, reach) > 0 : has_surface_near(region_, centre, reach);
 }
 
 void RegionShape::visit(const Vec3 &centre, double radius, const int *, int,

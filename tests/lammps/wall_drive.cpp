@@ -229,7 +229,7 @@ TEST_F(WallRestartMisfit, OfDamagedNumbersIsNamed)
   write(wall);
   damage({4.0, 91.0, 2.0, 1.0, -0.0625}, 4, std::nan(""));
   EXPECT_TRUE(refused(wall, "the restart file is damaged: lo = -?nan"));
-  // a particle's entry: 8 numbers of 4 values for 1 contact with face 0
+  // a particle's entry: 12 numbers of 4 values for 1 contact with face 0
   const struct {
     std::size_t which;
     double value;
@@ -243,7 +243,7 @@ TEST_F(WallRestartMisfit, OfDamagedNumbersIsNamed)
                  {3, 1.0, "damaged at atom 1: face of its contacts with the wall = 1"}};
   for (const auto &d : damages) {
     write("wall zplane 0 NULL");
-    damage({8.0, 4.0, 1.0, 0.0}, d.which, d.value);
+    damage({12.0, 4.0, 1.0, 0.0}, d.which, d.value);
     EXPECT_TRUE(refused("wall zplane 0 NULL", std::string("the restart file (is )?") + d.regex));
   }
 }

@@ -90,6 +90,15 @@ class Placement {
     return velocity + angular_velocity_.cross(arm);
   }
 
+  /// Velocity of the shape at a moving point, some time ago [length/time]
+  /// \param velocity_of_point  [length/time]
+  /// \param time  before the present, short
+  Vec3 velocity_before(const Vec3 &point, const Vec3 &velocity_of_point, double time) const
+  {
+    if (angular_velocity_ == Vec3::Zero()) return velocity;
+    return velocity_at(point - time * (velocity_of_point - velocity));
+  }
+
   /// Point of the axis of rotation and its direction in the shape's frame.
   Vec3 pivot_of_shape() const { return to_shape(pivot + displacement); }
   Vec3 axis_of_shape() const { return direction_to_shape(axis); }
