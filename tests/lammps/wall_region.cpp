@@ -144,9 +144,9 @@ TEST(RegionWall, TurnsByItsOwnKeywordsAndByTheDrive)
   for (Simulation *simulation : {&own, &driven}) open(*simulation, 4.0);
   // an axis that is no unit vector
   own("variable a equal 2*step*dt\n"
-      "region r block -2.2 2.2 -2.2 2.2 -2.2 2.2 rotate v_a 0.1 0 0 0 0 5\nfix w" +
+      "region r block -1.8 1.8 -1.8 1.8 -1.8 1.8 rotate v_a 0.1 0 0 0 0 5\nfix w" +
       law + "region r");
-  driven("region r block -2.2 2.2 -2.2 2.2 -2.2 2.2\nfix w" + law +
+  driven("region r block -1.8 1.8 -1.8 1.8 -1.8 1.8\nfix w" + law +
          "region r rotate 0.1 0 0 0 0 5 2");
   // the region's own velocity is that of the step, at its end
   expect_alike(own, driven, 30, 25, 5e-3);
