@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef EEPA_TESTS_WALLS_SUPPORT_H
+#define EEPA_TESTS_WALLS_SUPPORT_H
+
+#include <eepa_walls/mesh_shape.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+// Each test file has a namespace of its own, so that all of them can also be compiled as one.
+
+namespace eepa_walls_test {
+
+using namespace eepa;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double between(double low, double high)
+  {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned long>(n)); }
+  Vec3 vector(double magnitude)
+  {
+    const double x = between(-magnitude, magnitude), y = between(-magnitude, magnitude);
+    return Vec3(x, y, between(-magnitude, magnitude));
+  }
+  Vec3 direction()
+  {
+    for (;;) {
+      const Vec3 v = vector(1.0);
+      const double length = v.norm();
+      if (length > 0.1 && length < 1.0) return v / length;
+    }
+  }
+  template <class List> void shuffle(List &list)
+  {
+    std::shuffle(list.begin(), list.end(), engine_);
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+using Corners = std::array<Vec3, 3>;
+
+/// A surface as a list of triangles.
+struct Soup {
+  std::vector<Corners> triangles;
+
+  void add(const Vec3 &a, const Vec3 &b, const Vec3 &c) { triangles.push_back({a, b, c}); }
+  void add_quad(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d)
+  {
+    add(a, b, c);
+    add(a, c, d);
+  }
+  void append(const Soup &other)
+  {
+    triangles.insert(triangles.end(), other.triangles.begin(), other.triangles.end());
+  }
+  template <class Function> Soup moved(const Function &move) const
+  {
+    Soup result = *this;
+    for (Corners &t : result.triangles)
+      for (Vec3 &corner : t) corner = move(corner);
+    return result;
+  }
+
+  StlTriangles stl() const
+  {
+    StlTriangles s;
+    s.name = "soup";
+    for (const Corners &t : triangles)
+      for (const Vec3 &corner : t)
+        s.corners.insert(s.corners.end(), corner.data(), corner.data() + 3);
+    s.normals.resize(s.corners.size() / 3);
+    return s;
+  }
+  TriangleMesh mesh() const { return TriangleMesh(stl()); }
+  MeshShape shape(double smooth = MeshShape::default_smooth) const
+  {
+    return MeshShape(mesh(), smooth);
+  }
+};
+
+/// The rectangle from 0, 0 to width, depth in the plane z = 0, cut along lines at random places.
+inline Soup plate(double width, double depth, int nx, int ny, Random *random = nullptr)
+{
+  const auto cuts = [&](int n, double length) {
+    std::vector<double> x;
+    for (int i = 0; i <= n; ++i) x.push_back(length * i / n);
+    if (random)
+      for (int i = 1; i < n; ++i) x[i] += 0.49 * length / n * random->between(-1.0, 1.0);
+    return x;
+  };
+  const std::vector<double> x = cuts(nx, width), y = cuts(ny, depth);
+  Soup s;
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j) {
+      const Vec3 a(x[i], y[j], 0), b(x[i + 1], y[j], 0), c(x[i + 1], y[j + 1], 0),
+          d(x[i], y[j + 1], 0);
+      if (random && random->below(2))
+        s.add_quad(b, c, d, a);
+      else
+        s.add_quad(a, b, c, d);
+    }
+  return s;
+}
+
+/// The surface of a box, normals outwards, 12 triangles.
+inline Soup box(const Vec3 &low, const Vec3 &high)
+{
+  const auto corner = [&](int x, int y, int z) {
+    return Vec3(x ? high[0] : low[0], y ? high[1] : low[1], z ? high[2] : low[2]);
+  };
+  Soup s;
+  s.add_quad(corner(0, 0, 0), corner(0, 1, 0), corner(1, 1, 0), corner(1, 0, 0));
+  s.add_quad(corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1));
+  s.add_quad(corner(0, 0, 0), corner(1, 0, 0), corner(1, 0, 1), corner(0, 0, 1));
+  s.add_quad(corner(0, 1, 0), corner(0, 1, 1), corner(1, 1, 1), corner(1, 1, 0));
+  s.add_quad(corner(0, 0, 0), corner(0, 0, 1), corner(0, 1, 1), corner(0, 1, 0));
+  s.add_quad(corner(1, 0, 0), corner(1, 1, 0), corner(1, 1, 1), corner(1, 0, 1));
+  return s;
+}
+
+/// The contacts of a sphere, candidates from collect() and all else as a driver does it.
+inline std::vector<SurfacePoint> contacts(const MeshShape &shape, const Vec3 &centre, double radius)
+{
+  std::vector<int> pieces;
+  std::vector<SurfacePoint> found;
+  if (shape.collect(centre, radius, pieces))
+    shape.visit(centre, radius, pieces.data(), static_cast<int>(pieces.size()), found);
+  return found;
+}
+
+inline double largest_difference(const Vec3 &a, const Vec3 &b)
+{
+  return (a - b).cwiseAbs().maxCoeff();
+}
+
+}    // namespace eepa_walls_test
+
+#endif

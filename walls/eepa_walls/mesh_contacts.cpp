@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "mesh_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace eepa {
+
+namespace {
+
+  /// Distances that agree to this are the same: a foot beyond an edge by 1e-6 of the distance adds less.
+  constexpr double same_distance = 1.0 + 1e-12;
+
+  std::int64_t key_of_vertex(int vertex)
+  {
+    return 2 * static_cast<std::int64_t>(vertex);
+  }
+  std::int64_t key_of_edge(int edge)
+  {
+    return 2 * static_cast<std::int64_t>(edge) + 1;
+  }
+
+  int root_of(std::vector<int> &parents, int i)
+  {
+    while (parents[i] != i) i = parents[i] = parents[parents[i]];
+    return i;
+  }
+
+  /// Joins two trees of a forest; the lower number becomes the root.
+  void join(std::vector<int> &parents, int i, int j)
+  {
+    i = root_of(parents, i);
+    j = root_of(parents, j);
+    parents[std::max(i, j)] = std::min(i, j);
+  }
+
+  bool is_on(const TriangleMesh &mesh, int triangle, const Vec3 &point)
+  {
+    const Triangle t = mesh.triangle(triangle);
+    if (std::fabs(dot(t.normal, point - t.corner[0])) > mesh.tolerance) return false;
+    return closest_point(point, t).distance <= mesh.tolerance;
+  }
+
+}    // namespace
+
+SurfacePoint surface_point(const TriangleMesh &mesh, int triangle, const TrianglePoint &at,
+                           const Vec3 &centre)
+{
+  SurfacePoint point;
+  point.face = triangle;
+  point.distance = at.distance;
+  point.straight.setZero();
+  const Vec3 &normal = mesh.normals[triangle];
+  if (at.feature == Feature::inside || !(at.distance > 0.0)) {
+    point.normal = at.height < 0.0 ? Vec3(-normal) : normal;
+    return point;
+  }
+  point.normal = (centre - at.point) / at.distance;
+  point.curvature = 1.0 / at.distance;
+  if (at.feature == Feature::edge) {
+    const TriangleMesh::Three &corner = mesh.corners[triangle];
+    const Vec3 along =
+        mesh.vertices[corner[(at.number + 1) % 3]] - mesh.vertices[corner[at.number]];
+    point.straight = along / std::sqrt(squared_length(along));
+  }
+  return point;
+}
+
+void MeshContacts::find(const TriangleMesh &mesh, const std::vector<char> &smooth_edges,
+                        double smooth_cosine, const Vec3 &centre, double radius, const int *pieces,
+                        int count)
+{
+  found_.clear();
+  touch(mesh, centre, radius, pieces, count);
+  if (touched_.empty()) return;
+  keep_minima(mesh);
+  if (found_.size() > 1) drop_hidden_minima(mesh);
+  if (found_.size() > 1) join_smooth(mesh, smooth_edges, smooth_cosine, centre);
+  std::sort(found_.begin(), found_.end(), [](const Touch *a, const Touch *b) {
+    return a->triangle < b->triangle;
+  });
+}
+
+void MeshContacts::touch(const TriangleMesh &mesh, const Vec3 &centre, double radius,
+                         const int *pieces, int count)
+{
+  touched_.clear();
+  for (int i = 0; i < count; ++i) {
+    const int t = pieces[i];
+    // most pieces are not touched
+    if (!(std::fabs(dot(mesh.normals[t], centre - mesh.vertices[mesh.corners[t][0]])) < radius))
+      continue;
+    const TrianglePoint at = closest_point(centre, mesh.triangle(t));
+    if (at.distance < radius) touched_.push_back({at, t});
+  }
+  std::sort(touched_.begin(), touched_.end(), [](const Touch &a, const Touch &b) {
+    return a.at.distance != b.at.distance ? a.at.distance < b.at.distance : a.triangle < b.triangle;
+  });
+}
+
+/// Rule (i), for edges and corners that triangles share: a nearer triangle has been there.
+void MeshContacts::keep_minima(const TriangleMesh &mesh)
+{
+  if (touched_.size() == 1) {
+    found_.push_back(&touched_[0]);
+    return;
+  }
+  places_.clear(6 * touched_.size());
+  for (const Touch &touch : touched_) {
+    const TriangleMesh::Three &corners = mesh.corners[touch.triangle];
+    const TriangleMesh::Three &edges = mesh.edges_of[touch.triangle];
+    const int number = touch.at.number;
+    const bool nearer_there =
+        (touch.at.feature == Feature::corner && places_.contains(key_of_vertex(corners[number]))) ||
+        (touch.at.feature == Feature::edge && places_.contains(key_of_edge(edges[number])));
+    if (!nearer_there) found_.push_back(&touch);
+    for (int k = 0; k < 3; ++k) {
+      places_.insert(key_of_vertex(corners[k]), 0);
+      places_.insert(key_of_edge(edges[k]), 0);
+    }
+  }
+}
+
+/// Rule (i), for triangles that meet elsewhere: a corner on another one's edge, parts that stand on one
+/// another, and the foot that is on an edge to rounding, of which one of the triangles knows and the other
+/// one does not.
+void MeshContacts::drop_hidden_minima(const TriangleMesh &mesh)
+{
+  std::size_t kept = 0;
+  for (const Touch *minimum : found_) {
+    bool dropped = false;
+    for (const Touch *nearer = touched_.data(); nearer != minimum && !dropped; ++nearer)
+      dropped = is_on(mesh, nearer->triangle, minimum->at.point);
+    for (std::size_t i = 0; i < kept && !dropped; ++i)
+      dropped = minimum->at.distance <= found_[i]->at.distance * same_distance &&
+          is_on(mesh, minimum->triangle, found_[i]->at.point);
+    if (!dropped) found_[kept++] = minimum;
+  }
+  found_.resize(kept);
+}
+
+/// Rule (ii)
+void MeshContacts::join_smooth(const TriangleMesh &mesh, const std::vector<char> &smooth_edges,
+                               double smooth_cosine, const Vec3 &centre)
+{
+  // which touched triangles hang together
+  parents_.resize(touched_.size());
+  std::iota(parents_.begin(), parents_.end(), 0);
+  places_.clear(3 * touched_.size());
+  for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
+    for (const int edge : mesh.edges_of[touched_[i].triangle])
+      if (smooth_edges[edge]) join(parents_, i, places_.insert(key_of_edge(edge), i));
+
+  const auto patch_of = [&](const Touch *touch) {
+    return root_of(parents_, static_cast<int>(touch - touched_.data()));
+  };
+  const auto lies_on_face = [&](const TrianglePoint &at) {
+    return std::fabs(at.height) >= smooth_cosine * at.distance;
+  };
+  groups_.resize(found_.size());
+  std::iota(groups_.begin(), groups_.end(), 0);
+  for (std::size_t j = 1; j < found_.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      const TrianglePoint &a = found_[i]->at, &b = found_[j]->at;
+      if (patch_of(found_[i]) != patch_of(found_[j])) continue;
+      if ((lies_on_face(a) && lies_on_face(b)) ||
+          dot(centre - a.point, centre - b.point) >= smooth_cosine * a.distance * b.distance)
+        join(groups_, static_cast<int>(i), static_cast<int>(j));
+    }
+  // the root is the first of its group, and so the deepest
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < found_.size(); ++i)
+    if (groups_[i] == static_cast<int>(i)) found_[kept++] = found_[i];
+  found_.resize(kept);
+}
+
+}    // namespace eepa

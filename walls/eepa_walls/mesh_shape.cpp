@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "mesh_shape.h"
+
+#include "mesh_contacts.h"
+#include "text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace eepa {
+
+namespace {
+
+  constexpr double degree = M_PI / 180.0;
+  /// Angles that a mesh is meant to have, such as the 12 degrees of 30 facets, come out of a file with
+  /// an error [radians].
+  constexpr double angle_rounding = 1e-4;
+  /// A contact that goes on may turn by this at least, so that it passes a nearly flat edge.
+  constexpr double least_turn = 1.0 * degree;
+
+  double checked(double smooth)
+  {
+    if (!(smooth >= 0.0 && smooth <= 90.0))
+      throw std::invalid_argument("smooth = " + text_of(smooth) +
+                                  " is not allowed: it must be between 0 and 90 degrees");
+    return smooth * degree;
+  }
+
+}    // namespace
+
+MeshShape::MeshShape(TriangleMesh mesh, double smooth) : mesh_(std::move(mesh)), tree_(mesh_)
+{
+  const double angle = checked(smooth);
+  smooth_cosine_ = std::cos(angle + angle_rounding);
+  continues_cosine_ = std::cos(std::max(angle, least_turn) + angle_rounding);
+  smooth_edges_.resize(mesh_.edges.size());
+  for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
+    const TriangleMesh::Edge &edge = mesh_.edges[e];
+    smooth_edges_[e] = edge.count == 2 && edge.angle <= angle + edge.rounding + angle_rounding;
+  }
+  rounding_ = 1e-15 * mesh_.low.cwiseAbs().cwiseMax(mesh_.high.cwiseAbs()).maxCoeff();
+}
+
+bool MeshShape::collect(const Vec3 &centre, double reach, std::vector<int> &pieces) const
+{
+  const std::size_t before = pieces.size();
+  const double safe = reach * (1.0 + 1e-12) + rounding_;
+  tree_.for_each_near(centre, safe, [&](int t) {
+    if (std::fabs(dot(mesh_.normals[t], centre - mesh_.vertices[mesh_.corners[t][0]])) <= safe &&
+        closest_point(centre, mesh_.triangle(t)).distance <= safe)
+      pieces.push_back(t);
+  });
+  std::sort(pieces.begin() + static_cast<std::ptrdiff_t>(before), pieces.end());
+  return pieces.size() > before;
+}
+
+void MeshShape::visit(const Vec3 &centre, double radius, const int *pieces, int count,
+                      std::vector<SurfacePoint> &found) const
+{
+  // kept, so that no memory is asked for once it is large enough
+  thread_local MeshContacts contacts;
+  contacts.find(mesh_, smooth_edges_, smooth_cosine_, centre, radius, pieces, count);
+  for (const MeshContacts::Touch *touch : contacts.found())
+    found.push_back(surface_point(mesh_, touch->triangle, touch->at, centre));
+}
+
+SurfacePoint MeshShape::nearest(int face, const Vec3 &centre) const
+{
+  return surface_point(mesh_, face, closest_point(centre, mesh_.triangle(face)), centre);
+}
+
+bool MeshShape::continues(int face, const SurfacePoint &now, const Vec3 &centre) const
+{
+  if (face == now.face) return true;
+  return has_face(face) && dot(nearest(face, centre).normal, now.normal) >= continues_cosine_;
+}
+
+bool MeshShape::is_between(const Vec3 &before, const Vec3 &now) const
+{
+  TriangleTree::Box box(before);
+  box.extend(now);
+  box.min().array() -= rounding_;
+  box.max().array() += rounding_;
+  return tree_.any_in(box, [&](int t) {
+    return crosses(before, now, mesh_.triangle(t), rounding_);
+  });
+}
+
+double MeshShape::extent(const Vec3 &point, const Vec3 &axis) const
+{
+  double most = 0.0;
+  for (const Vec3 &vertex : mesh_.vertices)
+    most = std::max(most, squared_length(cross(axis, vertex - point)));
+  return std::sqrt(most);
+}
+
+}    // namespace eepa
