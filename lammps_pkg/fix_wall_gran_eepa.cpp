@@ -6,6 +6,7 @@
 
 #include "face_loads.h"
 #include "find_contact_owners.h"
+#include "read_mesh.h"
 #include "region_shape.h"
 #include "run_guards.h"
 
@@ -57,6 +58,7 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   about = typed.about;
   require_walls_in_the_box();
   make_shape();
+  if (typed.face_interval == 0) face_loads.reset();
   change_motion(typed.motion);
 
   create_attribute = 1;
@@ -123,7 +125,9 @@ void FixWallGranEepa::make_shape()
     region_shape = of_region.get();
     shape = std::move(of_region);
   } else {
-    error->all(FLERR, "fix {} wall/gran/eepa: wall mesh is not there yet", id);
+    auto mesh = read_mesh(lmp, typed_shape, style_name());
+    face_loads = std::make_unique<FaceLoads>(mesh->mesh().file_number, mesh->mesh().areas);
+    shape = std::move(mesh);
   }
 }
 

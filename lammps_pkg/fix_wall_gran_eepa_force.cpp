@@ -337,9 +337,13 @@ eepa::WallPoint<double> FixWallGranEepa::wall_point(const SurfacePoint &point,
     wall.normal_rate += wall.angular_velocity.cross(wall.normal);
   }
   if (shape->moves()) {
-    const eepa::SurfaceVelocity own = shape->velocity(point, centre);
-    wall.velocity += placement.direction_to_space(own.linear);
-    wall.angular_velocity += placement.direction_to_space(own.angular);
+    const eepa::SurfaceVelocity own = shape->velocity(
+        point, centre, 0.5 * request.time_step * placement.direction_to_shape(relative));
+    // of the surface, from which the middle of the overlap is not far
+    const Vec3 inwards = spot - body.x + point.distance * wall.normal;
+    const Vec3 own_angular = placement.direction_to_space(own.angular);
+    wall.velocity += placement.direction_to_space(own.linear) + own_angular.cross(inwards);
+    wall.angular_velocity += own_angular;
   }
   if (surface_speed != 0.0) {    // of a cylinder
     const Vec3 around(wall.normal[1], -wall.normal[0], 0.0);

@@ -115,7 +115,7 @@ SurfacePoint RegionShape::nearest(int face, const Vec3 &centre) const
 Vec3 RegionShape::normal_rate(const SurfacePoint &point, const Vec3 &centre,
                               const Vec3 &velocity) const
 {
-  const eepa::SurfaceVelocity own = this->velocity(point, centre);
+  const eepa::SurfaceVelocity own = this->velocity(point, centre, Vec3::Zero());
   Vec3 along = velocity - own.linear;
   along -= eepa::dot(along, point.normal) * point.normal;
   const Vec3 rotation = own.angular.cross(point.normal);
@@ -135,7 +135,8 @@ Vec3 RegionShape::normal_rate(const SurfacePoint &point, const Vec3 &centre,
   return rate + rotation;
 }
 
-eepa::SurfaceVelocity RegionShape::velocity(const SurfacePoint &point, const Vec3 &centre) const
+eepa::SurfaceVelocity RegionShape::velocity(const SurfacePoint &point, const Vec3 &centre,
+                                            const Vec3 &path) const
 {
   eepa::SurfaceVelocity velocity;
   if (!moves()) return velocity;
@@ -144,7 +145,7 @@ eepa::SurfaceVelocity RegionShape::velocity(const SurfacePoint &point, const Vec
   const Vec3 spot = centre - point.distance * point.normal;
   if (region_->rotateflag) {
     const Vec3 pivot(region_->rpoint);
-    const Vec3 arm = spot - pivot;
+    const Vec3 arm = spot - path - pivot;
     velocity.linear += velocity.angular.cross(arm);
   }
   if (!region_->varshape || !size_rate_known_) return velocity;

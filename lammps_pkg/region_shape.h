@@ -43,8 +43,8 @@ class RegionShape final : public eepa::Shape {
   eepa::Vec3 normal_rate(const eepa::SurfacePoint &point, const eepa::Vec3 &centre,
                          const eepa::Vec3 &velocity) const override;
   bool moves() const override { return region_->dynamic_check() != 0; }
-  eepa::SurfaceVelocity velocity(const eepa::SurfacePoint &point,
-                                 const eepa::Vec3 &centre) const override;
+  eepa::SurfaceVelocity velocity(const eepa::SurfacePoint &point, const eepa::Vec3 &centre,
+                                 const eepa::Vec3 &path) const override;
   bool is_between(const eepa::Vec3 &before, const eepa::Vec3 &now) const override;
   double extent(const eepa::Vec3 &point, const eepa::Vec3 &axis) const override;
   bool has_face(int face) const override { return face >= 0; }

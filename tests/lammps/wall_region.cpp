@@ -149,7 +149,7 @@ TEST(RegionWall, TurnsByItsOwnKeywordsAndByTheDrive)
   driven("region r block -1.8 1.8 -1.8 1.8 -1.8 1.8\nfix w" + law +
          "region r rotate 0.1 0 0 0 0 5 2");
   // the region's own velocity is that of the step, at its end
-  expect_alike(own, driven, 30, 25, 5e-3);
+  expect_alike(own, driven, 30, 25, 1e-4);
   EXPECT_NEAR(driven.fix("w", 20), 2 * 750 * 1e-4, 1e-12);
 }
 

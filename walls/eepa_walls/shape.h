@@ -63,8 +63,10 @@ class Shape {
   /// Whether the surface moves in its own frame. Then visit() sees its present position, and nothing is
   /// known of where it will be in the next step.
   virtual bool moves() const { return false; }
-  /// Velocity of the surface in its own frame.
-  virtual SurfaceVelocity velocity(const SurfacePoint &, const Vec3 & /*centre*/) const
+  /// Velocity of the surface in its own frame where it touched the sphere a short time ago.
+  /// \param path  of the sphere's centre since then [length]
+  virtual SurfaceVelocity velocity(const SurfacePoint & /*point*/, const Vec3 & /*centre*/,
+                                   const Vec3 & /*path*/) const
   {
     return {};
   }
