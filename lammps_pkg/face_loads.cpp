@@ -58,6 +58,26 @@ void FaceLoads::sum(MPI_Comm world)
   for (auto &of_face : sums_) std::fill_n(of_face.begin(), static_cast<int>(SLIDING_WORK), 0.0);
 }
 
+std::vector<double> FaceLoads::wear(MPI_Comm world) const
+{
+  std::vector<double> mine, all(wear_size());
+  mine.reserve(all.size());
+  for (const auto &of_face : sums_) {
+    mine.push_back(of_face[SLIDING_WORK]);
+    mine.push_back(of_face[IMPACT_WORK]);
+  }
+  MPI_Allreduce(mine.data(), all.data(), wear_size(), MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+void FaceLoads::set_wear(const double *values)
+{
+  for (auto &of_face : sums_) {
+    of_face[SLIDING_WORK] = *values++;
+    of_face[IMPACT_WORK] = *values++;
+  }
+}
+
 double FaceLoads::memory_usage() const
 {
   return static_cast<double>(sums_.capacity() * sizeof(sums_[0]) +

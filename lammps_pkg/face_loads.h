@@ -36,6 +36,13 @@ class FaceLoads {
 
   /// Prepares the rows of this process; the faces are shared out among the processes. Collective.
   void sum(MPI_Comm world);
+  /// Sliding and impact work of each face, 2 values a face, of all processes together. Collective.
+  std::vector<double> wear(MPI_Comm world) const;
+  /// Goes on from the wear of a restart file; to be called on one process.
+  /// \param values  wear_size() of them
+  void set_wear(const double *values);
+  int wear_size() const { return 2 * static_cast<int>(areas_.size()); }
+
   int row_count() const { return static_cast<int>(row_pointers_.size()); }
   double **rows() { return row_pointers_.data(); }
   double memory_usage() const;

@@ -2,12 +2,14 @@
 
 // How FixWallGranEepa writes restart files and reads them.
 //
-// The fix writes a list of numbers, `names` below. The first is the format, the second their count.
-// Format 4 added those from ROTATES on; files of format 3 are read. Integers are exact.
+// The block of the fix is the list of wall_state.h and, where faces are told of, the wear of each.
+// Those of particles are in fix_wall_gran_eepa_contacts.cpp.
 
 #include "fix_wall_gran_eepa.h"
 
+#include "face_loads.h"
 #include "region_shape.h"
+#include "wall_state.h"
 
 #include <eepa/history.h>
 #include <eepa_commands/restart_numbers.h>
@@ -22,141 +24,10 @@
 #include <stdexcept>
 
 using namespace LAMMPS_NS;
+using namespace LAMMPS_NS::wall_state;
 using eepa::WallDrive;
 
 namespace {
-
-constexpr double restart_format = 4.0, oldest_format = 3.0;
-
-enum StateIndex {
-  FORMAT,
-  COUNT,
-  KIND,
-  SIDES,
-  LO,
-  HI,
-  RADIUS,
-  LAW,
-  EXPONENT,
-  ROLLING_SPRING,
-  TWISTING_SPRING,
-  VALUES_A_CONTACT,
-  DRIVE,
-  DISPLACEMENT,
-  ORIGIN = DISPLACEMENT + 3,
-  TIME_BEFORE = ORIGIN + 3,
-  TIME_STEP,
-  TIME_STEPS,
-  WIGGLE_AXIS,
-  WIGGLE_AMPLITUDE,
-  WIGGLE_PERIOD,
-  SURFACE_VELOCITY,
-  SURFACE_SPEED = SURFACE_VELOCITY + 3,
-  PLATEN_MASS,
-  PLATEN_POSITION,
-  PLATEN_VELOCITY,
-  PLATEN_WORK,
-  PLATEN_DISSIPATED,
-  VECTOR,
-  N_OLD_VECTOR = 16,
-  N_OLD_STATE = VECTOR + N_OLD_VECTOR,    // of format 3
-  ROTATES = N_OLD_STATE,
-  ANGLE,
-  ANGLE_BEFORE,
-  ANGULAR_SPEED,
-  BEGUN_AT,    // quaternion, scalar first
-  SHIFT_BEGUN_AT = BEGUN_AT + 4,
-  PIVOT = SHIFT_BEGUN_AT + 3,
-  AXIS = PIVOT + 3,
-  POINT = AXIS + 3,
-  LOAD_AXIS = POINT + 3,
-  SHAPE_CHECK,
-  REGION_STEP,
-  REGION_DISPLACEMENT,
-  REGION_ANGLE = REGION_DISPLACEMENT + 3,
-  REGION_VELOCITY,
-  REGION_ANGULAR_VELOCITY = REGION_VELOCITY + 3,
-  MORE_VECTOR = REGION_ANGULAR_VELOCITY + 3,
-  N_MORE_VECTOR = 8,
-  N_STATE = MORE_VECTOR + N_MORE_VECTOR
-};
-
-const char *name_of(int index)
-{
-  static const char *const names[] = {"format",
-                                      "count",
-                                      "kind",
-                                      "sides",
-                                      "lo",
-                                      "hi",
-                                      "radius",
-                                      "law",
-                                      "exponent",
-                                      "rolling spring",
-                                      "twisting spring",
-                                      "values a contact",
-                                      "drive",
-                                      "displacement",
-                                      "displacement",
-                                      "displacement",
-                                      "origin of motion",
-                                      "origin of motion",
-                                      "origin of motion",
-                                      "time before",
-                                      "time step",
-                                      "number of steps",
-                                      "wiggle dimension",
-                                      "wiggle A",
-                                      "wiggle period",
-                                      "velocity",
-                                      "velocity",
-                                      "velocity",
-                                      "speed of the surface",
-                                      "load mass",
-                                      "load position",
-                                      "load velocity",
-                                      "load work",
-                                      "load dissipation"};
-  static_assert(sizeof(names) / sizeof(names[0]) == VECTOR, "a name for each number");
-  if (index < VECTOR) return names[index];
-  if (index < ROTATES) return "output";
-  if (index < LOAD_AXIS) return "rotation";
-  if (index < MORE_VECTOR) return index == SHAPE_CHECK ? "shape" : "load axis or region";
-  return "output";
-}
-
-/// Why the numbers can not have been written by this fix; "" where they can.
-std::string damage(const std::vector<double> &state)
-{
-  const auto wrong = [&state](int index) {
-    return fmt::format("{} = {}", name_of(index), state[index]);
-  };
-  for (int k = 0; k < N_STATE; k++)
-    if (!std::isfinite(state[k])) return wrong(k);
-  constexpr double huge = 9007199254740992.0;    // 2^53: larger integers are not exact
-  const struct {
-    int index;
-    double least, most;
-  } integers[] = {{KIND, 0, eepa::WallShape::kind_count - 1},
-                  {SIDES, 0, 3},
-                  {LAW, 0, eepa::law_count - 1},
-                  {ROLLING_SPRING, 0, 1},
-                  {TWISTING_SPRING, 0, 1},
-                  {DRIVE, 0, eepa::drive_count - 1},
-                  {VALUES_A_CONTACT, 1, 1000},
-                  {TIME_STEPS, 0, huge},
-                  {WIGGLE_AXIS, 0, 2},
-                  {ROTATES, 0, 1},
-                  {LOAD_AXIS, 0, 2},
-                  {REGION_STEP, -1, huge}};
-  for (const auto &number : integers)
-    if (!eepa::is_count(state[number.index], number.least, number.most)) return wrong(number.index);
-  for (const int index : {EXPONENT, WIGGLE_PERIOD})
-    if (state[index] <= 0.0) return wrong(index);
-  for (const int index : {RADIUS, PLATEN_MASS, TIME_STEP})
-    if (state[index] < 0.0) return wrong(index);
-  return "";
-}
 
 int sides_of(const eepa::WallShape &shape)
 {
@@ -230,6 +101,7 @@ std::vector<double> FixWallGranEepa::restart_state() const
   std::copy_n(motion_args.rotation.point.begin(), 3, state.begin() + POINT);
   state[LOAD_AXIS] = load_axis();
   state[SHAPE_CHECK] = shape->check();
+  state[WEAR] = face_loads ? face_loads->wear_size() : 0;
   const RegionMotion region = region_shape ? region_shape->motion : RegionMotion();
   state[REGION_STEP] = static_cast<double>(region.step);
   put(state, REGION_DISPLACEMENT, region.displacement);
@@ -252,8 +124,11 @@ void FixWallGranEepa::write_restart(FILE *fp)
   for (int i = 0; i < atom->nlocal; i++)
     mine = std::max(mine, static_cast<int>(histories.list(i).size()));
   MPI_Allreduce(&mine, &most_contacts, 1, MPI_INT, MPI_MAX, world);
+  std::vector<double> wear;
+  if (face_loads) wear = face_loads->wear(world);
   if (comm->me != 0) return;
-  const std::vector<double> state = restart_state();
+  std::vector<double> state = restart_state();
+  state.insert(state.end(), wear.begin(), wear.end());
   const int bytes = static_cast<int>(state.size() * sizeof(double));
   fwrite(&bytes, sizeof(int), 1, fp);
   fwrite(state.data(), sizeof(double), state.size(), fp);
@@ -290,6 +165,11 @@ void FixWallGranEepa::restart(char *buf)
     error->all(FLERR, "fix {} wall/gran/eepa: the restart file is damaged: {}", id, wrong);
   require_same_wall(state);
   take_up_motion(state);
+  if (face_loads && state[WEAR] == face_loads->wear_size() && comm->me == 0) {
+    std::vector<double> wear(face_loads->wear_size());
+    std::memcpy(wear.data(), buf + N_STATE * sizeof(double), wear.size() * sizeof(double));
+    face_loads->set_wear(wear.data());
+  }
   std::copy_n(state.begin() + VECTOR, static_cast<int>(N_OLD_VECTOR), output_vector.begin());
   std::copy_n(state.begin() + MORE_VECTOR, static_cast<int>(N_MORE_VECTOR),
               output_vector.begin() + N_OLD_VECTOR);
