@@ -12,7 +12,7 @@ build=${BUILD_DIR:-$root/build}
 
 packages=(cmake ninja-build g++ libopenmpi-dev openmpi-bin libeigen3-dev libgtest-dev
     libbenchmark-dev libpng-dev python3 python3-numpy python3-scipy
-    python3-matplotlib dpkg-dev xz-utils
+    python3-matplotlib python3-meshio dpkg-dev xz-utils
     ca-certificates)
 
 installed() {
