@@ -216,6 +216,7 @@ class FixWallGranEepa : public Fix {
   bool motion_is_bounded() const;
   double travelled() const;
   void collect_candidates();
+  void prefetch_candidate(std::size_t k) const;
   void sum_forces();
   void book(int i, const eepa::Dissipation &);
   void meet(int i, const int *pieces_of_i, int count);

@@ -65,8 +65,12 @@ void FixWallGranEepa::post_force(int vflag)
   atom_losses.clear();
   if (keep_ledger) atom_losses = ComputeGranEepaEnergyAtom::find(modify);
   if (face_loads && step) face_loads->start_step();
-  for (std::size_t k = 0; k < candidates.size(); k++)
+  const std::size_t count = candidates.size();
+  for (std::size_t k = 0; k < count; k++) {
+    constexpr std::size_t soon = 4;    // particles ahead
+    if (k + soon < count) prefetch_candidate(k + soon);
     meet(candidates[k], pieces.data() + first_piece[k], first_piece[k + 1] - first_piece[k]);
+  }
   after_setup = !step;
   if (step) ledger_starts = false;
   if (loaded()) {
@@ -141,6 +145,23 @@ void FixWallGranEepa::collect_candidates()
   }
   if (contact_table && atom->nlocal > 0)
     std::fill_n(array_atom[0], static_cast<std::size_t>(atom->nlocal) * N_ATOM, 0.0);
+}
+
+/// Candidates are scattered over the particles: few of their data are in the cache.
+void FixWallGranEepa::prefetch_candidate(std::size_t k) const
+{
+#if defined(__GNUC__) || defined(__clang__)
+  const int i = candidates[k];
+  __builtin_prefetch(atom->x[i]);
+  __builtin_prefetch(atom->v[i]);
+  __builtin_prefetch(atom->omega[i]);
+  __builtin_prefetch(atom->f[i], 1);
+  __builtin_prefetch(atom->torque[i], 1);
+  __builtin_prefetch(atom->radius + i);
+  __builtin_prefetch(atom->rmass + i);
+  __builtin_prefetch(atom->mask + i);
+#endif
+  shape->prefetch(pieces.data() + first_piece[k], first_piece[k + 1] - first_piece[k]);
 }
 
 /* ---------------------------------------------------------------------- contacts of a particle */

@@ -42,6 +42,17 @@ namespace {
     return closest_point(point, t).distance <= mesh.tolerance;
   }
 
+  /// 0 inside the box
+  double squared_distance(const Vec3 &x, const TriangleMesh::Box &box)
+  {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double outside = std::max({box.low[k] - x[k], x[k] - box.high[k], 0.0});
+      sum += outside * outside;
+    }
+    return sum;
+  }
+
 }    // namespace
 
 SurfacePoint surface_point(const TriangleMesh &mesh, int triangle, const TrianglePoint &at,
@@ -86,11 +97,11 @@ void MeshContacts::touch(const TriangleMesh &mesh, const Vec3 &centre, double ra
                          const int *pieces, int count)
 {
   touched_.clear();
+  const double squared_radius = radius * radius * (1.0 + 1e-12);
   for (int i = 0; i < count; ++i) {
     const int t = pieces[i];
     // most pieces are not touched
-    if (!(std::fabs(dot(mesh.normals[t], centre - mesh.vertices[mesh.corners[t][0]])) < radius))
-      continue;
+    if (!(squared_distance(centre, mesh.boxes[t]) < squared_radius)) continue;
     const TrianglePoint at = closest_point(centre, mesh.triangle(t));
     if (at.distance < radius) touched_.push_back({at, t});
   }

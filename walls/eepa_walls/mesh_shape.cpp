@@ -65,6 +65,20 @@ void MeshShape::visit(const Vec3 &centre, double radius, const int *pieces, int 
     found.push_back(surface_point(mesh_, touch->triangle, touch->at, centre));
 }
 
+void MeshShape::prefetch(const int *pieces, int count) const
+{
+#if defined(__GNUC__) || defined(__clang__)
+  for (int k = 0; k < count; k++) {
+    __builtin_prefetch(mesh_.boxes.data() + pieces[k]);
+    __builtin_prefetch(mesh_.normals.data() + pieces[k]);
+    __builtin_prefetch(mesh_.corners.data() + pieces[k]);
+  }
+#else
+  (void) pieces;
+  (void) count;
+#endif
+}
+
 SurfacePoint MeshShape::nearest(int face, const Vec3 &centre) const
 {
   return surface_point(mesh_, face, closest_point(centre, mesh_.triangle(face)), centre);

@@ -48,6 +48,9 @@ class Shape {
   virtual void visit(const Vec3 &centre, double radius, const int *pieces, int count,
                      std::vector<SurfacePoint> &found) const = 0;
 
+  /// Fetches what visit() will read soon.
+  virtual void prefetch(const int * /*pieces*/, int /*count*/) const {}
+
   /// The point of a face that is nearest to a centre, at any distance.
   virtual SurfacePoint nearest(int face, const Vec3 &centre) const = 0;
 

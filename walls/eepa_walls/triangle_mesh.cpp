@@ -218,6 +218,7 @@ void TriangleMesh::measure()
 {
   normals.resize(corners.size());
   areas.resize(corners.size());
+  boxes.resize(corners.size());
   for (int t = 0; t < count(); ++t) {
     const Three &c = corners[t];
     const Vec3 area = area_vector(vertices[c[0]], vertices[c[1]], vertices[c[2]]);
@@ -225,6 +226,13 @@ void TriangleMesh::measure()
     areas[t] = 0.5 * length;
     // divided, not multiplied by a reciprocal: exactly 1 along an axis
     normals[t] = Vec3(area[0] / length, area[1] / length, area[2] / length);
+    for (int k = 0; k < 3; ++k) {
+      const double x[] = {vertices[c[0]][k], vertices[c[1]][k], vertices[c[2]][k]};
+      boxes[t].low[k] =
+          std::nextafter(static_cast<float>(std::min({x[0], x[1], x[2]})), -HUGE_VALF);
+      boxes[t].high[k] =
+          std::nextafter(static_cast<float>(std::max({x[0], x[1], x[2]})), HUGE_VALF);
+    }
   }
 }
 

@@ -54,6 +54,11 @@ class TriangleMesh {
   std::vector<Three> corners;    ///< vertices of each triangle
   std::vector<Vec3> normals;     ///< unit vectors, by the order of the corners
   std::vector<double> areas;
+  /// A box about each triangle, so that those that are far are passed by at little cost.
+  struct Box {
+    float low[3], high[3];    ///< rounded outwards
+  };
+  std::vector<Box> boxes;
   std::vector<int> file_number;    ///< of each triangle, from 1
   std::vector<Edge> edges;
   std::vector<Three> edges_of;    ///< edges of each triangle; edge k leads from corner k to k + 1
