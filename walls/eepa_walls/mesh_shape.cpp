@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 namespace eepa {
@@ -107,6 +108,20 @@ double MeshShape::extent(const Vec3 &point, const Vec3 &axis) const
   for (const Vec3 &vertex : mesh_.vertices)
     most = std::max(most, squared_length(cross(axis, vertex - point)));
   return std::sqrt(most);
+}
+
+double MeshShape::check() const
+{
+  // Fowler-Noll-Vo; vertices are numbered in the order in which triangles use them
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto add = [&hash](std::uint64_t value) {
+    hash = (hash ^ value) * 0x100000001b3u;
+  };
+  for (const TriangleMesh::Three &corners : mesh_.corners)
+    for (const int vertex : corners) add(static_cast<std::uint64_t>(vertex));
+  for (const int number : mesh_.file_number) add(static_cast<std::uint64_t>(number));
+  constexpr int bits = 53;
+  return static_cast<double>(hash >> (64 - bits));
 }
 
 }    // namespace eepa
