@@ -63,6 +63,9 @@ EEPA_FUNCTION Vector3<Lanes> select(const Lanes::mask_type &condition, const Vec
 /// base^exponent; each lane gets the result of the C library for a double.
 template <class Real> EEPA_FUNCTION Real pow(const Real &base, double exponent)
 {
+  // of Hertz's law: as exact, many times as fast, and the same bits on every processor
+  using std::sqrt;
+  if (exponent == 0.5) return sqrt(base);
   if constexpr (is_lanes<Real>)
     return Real([&](auto lane) EEPA_LAMBDA {
       return std::pow(base[lane], exponent);
