@@ -201,7 +201,8 @@ class FixWallGranEepa : public Fix {
   double position() const;
   double normal_velocity() const;
   /// Changes to another motion and keeps position, contacts and the velocity of a platen.
-  void change_motion(const eepa::MotionArguments &next);
+  /// \param rotation_goes_on  about the axis where it is now, which need not be the point given
+  void change_motion(const eepa::MotionArguments &next, bool rotation_goes_on = false);
   void begin_rotation();
   void measure_rotation();
   void require_variables(const eepa::MotionArguments &motion) const;

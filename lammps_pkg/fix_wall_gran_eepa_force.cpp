@@ -209,26 +209,34 @@ void FixWallGranEepa::meet(int i, const int *pieces_of_i, int count)
 }
 
 /// Finds the history of each contact: of the same face, or of a face from which the particle slid.
-/// Of several, the one whose normal is nearest.
+/// Those whose normals are nearest belong together, because contacts may share the number of a face.
 void FixWallGranEepa::match(int i, const Vec3 &centre)
 {
   const auto &list = histories.list(i);
   history_of_found.assign(found.size(), -1);
   is_matched.assign(list.size(), 0);
   for (const bool same_face : {true, false})
-    for (std::size_t k = 0; k < found.size(); k++) {
-      if (history_of_found[k] >= 0) continue;
-      double closest = -HUGE_VAL;
-      for (std::size_t m = 0; m < list.size(); m++) {
-        const double alike = eepa::dot(list[m].normal, found[k].normal);
-        if (is_matched[m] || alike <= closest) continue;
-        if (same_face ? list[m].face != found[k].face
-                      : !shape->continues(list[m].face, found[k], centre))
-          continue;
-        closest = alike;
-        history_of_found[k] = static_cast<int>(m);
+    for (;;) {
+      double closest = 0.0;
+      std::size_t contact = found.size(), history = 0;
+      for (std::size_t k = 0; k < found.size(); k++) {
+        if (history_of_found[k] >= 0) continue;
+        for (std::size_t m = 0; m < list.size(); m++) {
+          if (is_matched[m]) continue;
+          const bool is_known = list[m].normal != Vec3::Zero();
+          const double alike = is_known ? eepa::dot(list[m].normal, found[k].normal) : 1.0;
+          if (alike <= closest) continue;
+          if (same_face ? list[m].face != found[k].face
+                        : !shape->continues(list[m].face, found[k], centre))
+            continue;
+          closest = alike;
+          contact = k;
+          history = m;
+        }
       }
-      if (history_of_found[k] >= 0) is_matched[history_of_found[k]] = 1;
+      if (contact == found.size()) break;
+      history_of_found[contact] = static_cast<int>(history);
+      is_matched[history] = 1;
     }
 }
 
@@ -240,9 +248,6 @@ void FixWallGranEepa::touch(int i, const eepa::Body<double> &body, const Vec3 &c
   fresh.face = point.face;
   const bool known = history_of_found[which] >= 0;
   FaceHistory &history = known ? histories.mutable_list(i)[history_of_found[which]] : fresh;
-  if (eepa::dot(history.normal, point.normal) < 0.0 && got_through(body, history))
-    stop_behind_wall(i);
-
   const eepa::WallPoint<double> wall = wall_point(point, body, centre);
   if (eepa::too_deep(wall.overlap, body.radius)) stop_at_overlap(i, point.face, wall.overlap);
   const eepa::Contact contact = eepa::contact_at_wall(body, wall, request.time_step);

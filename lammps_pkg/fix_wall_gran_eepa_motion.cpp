@@ -166,7 +166,7 @@ void FixWallGranEepa::require_limits(const eepa::LoadArguments &load, double pla
                typed_shape.is_plane() ? "plane" : "displacement of the wall", place);
 }
 
-void FixWallGranEepa::change_motion(const eepa::MotionArguments &next)
+void FixWallGranEepa::change_motion(const eepa::MotionArguments &next, bool rotation_goes_on)
 {
   const bool was_loaded = loaded(), is_loaded = next.drive == WallDrive::load;
   const bool same_platen = was_loaded && is_loaded && next.load.axis == load_axis();
@@ -198,7 +198,7 @@ void FixWallGranEepa::change_motion(const eepa::MotionArguments &next)
     needs_setup = true;
   }
   angular_speed = next.rotation.speed.value;
-  if (next.rotates) begin_rotation();
+  if (next.rotates && !rotation_goes_on) begin_rotation();
   place_wall();
 }
 

@@ -102,12 +102,13 @@ std::vector<double> FixWallGranEepa::restart_state() const
   state[LOAD_AXIS] = load_axis();
   state[SHAPE_CHECK] = shape->check();
   state[WEAR] = face_loads ? face_loads->wear_size() : 0;
-  const RegionMotion region = region_shape ? region_shape->motion : RegionMotion();
+  const RegionMotion region = region_shape ? region_shape->motion() : RegionMotion();
   state[REGION_STEP] = static_cast<double>(region.step);
   put(state, REGION_DISPLACEMENT, region.displacement);
   state[REGION_ANGLE] = region.angle;
   put(state, REGION_VELOCITY, region.velocity);
   put(state, REGION_ANGULAR_VELOCITY, region.angular_velocity);
+  state[REGION_SIZE_BEFORE] = region.size_before;
   static_assert(N_VECTOR == N_OLD_VECTOR + N_MORE_VECTOR, "the file has the whole global vector");
   std::copy_n(output_vector.begin(), static_cast<int>(N_OLD_VECTOR), state.begin() + VECTOR);
   std::copy_n(output_vector.begin() + N_OLD_VECTOR, static_cast<int>(N_MORE_VECTOR),
@@ -277,12 +278,14 @@ void FixWallGranEepa::take_up_motion(const std::vector<double> &state)
   angular_speed = state[ANGULAR_SPEED];
   measure_rotation();
   if (region_shape) {
-    RegionMotion &region = region_shape->motion;
+    RegionMotion region;
     region.step = static_cast<bigint>(state[REGION_STEP]);
     region.displacement = vector_at(state, REGION_DISPLACEMENT);
     region.angle = state[REGION_ANGLE];
     region.velocity = vector_at(state, REGION_VELOCITY);
     region.angular_velocity = vector_at(state, REGION_ANGULAR_VELOCITY);
+    region.size_before = state[REGION_SIZE_BEFORE];
+    region_shape->set_motion(region);
   }
   place_wall();
 
@@ -294,7 +297,7 @@ void FixWallGranEepa::take_up_motion(const std::vector<double> &state)
         typed.rotation.point == motion_args.rotation.point));
   if (typed.drive != motion_args.drive || loaded() || !same_rotation ||
       (typed.drive == WallDrive::wiggle && !same_wiggle)) {
-    change_motion(typed);
+    change_motion(typed, same_rotation);
     return;
   }
   // the same motion goes on; numbers of the command replace those of the file

@@ -9,29 +9,89 @@ using namespace LAMMPS_NS;
 using eepa::SurfacePoint;
 using eepa::Vec3;
 
+namespace {
+
+/// What LAMMPS keeps for derived regions only.
+class Access : public Region {
+ public:
+  static double *pivot_of(Region *region) { return region->*(&Access::point); }
+  static double *axis_of(Region *region) { return region->*(&Access::runit); }
+};
+
+}    // namespace
+
+void RegionShape::set_region(Region *region)
+{
+  const std::vector<Part> before = parts_;
+  region_ = region;
+  parts_.clear();
+  add_parts(region, 0, false);
+  if (before.size() != parts_.size()) return;
+  for (std::size_t k = 0; k < parts_.size(); k++) parts_[k].motion = before[k].motion;
+}
+
+/// \param one_face  whether all faces of the region have the number first_face, as the parts of a union
+/// have that is touched from outside
+void RegionShape::add_parts(Region *region, int first_face, bool one_face)
+{
+  if (!region->reglist) {
+    parts_.push_back({region, first_face + (one_face ? 1 : region->cmax), {}});
+    return;
+  }
+  // where a part turns, LAMMPS turns the union as well, by an angle that it has not set
+  region->theta = 0.0;
+  std::fill_n(Access::pivot_of(region), 3, 0.0);
+  std::fill_n(Access::axis_of(region), 3, 0.0);
+  for (int k = 0; k < region->nregion; k++) {
+    Region *part = region->reglist[k];
+    add_parts(part, first_face, one_face || !region->interior);
+    if (!one_face) first_face += region->interior ? part->cmax : 1;
+  }
+}
+
+const RegionShape::Part &RegionShape::part_of(int face) const
+{
+  for (const Part &part : parts_)
+    if (face < part.end_face) return part;
+  return parts_.back();
+}
+
 void RegionShape::update(bigint step, double time_step)
 {
   if (!region_->dynamic_check()) return;
   region_->prematch();
-  if (motion.step == step) return;
-  // The region's own velocities are wrong in the first step that it is asked for, and where its axis is not
-  // typed as a unit vector. Only the directions are taken from it.
-  const bool first = motion.step < 0;
-  region_->set_velocity();
-  const Vec3 place(region_->dx, region_->dy, region_->dz);
+  for (Part &part : parts_) part.update(step, time_step);
+}
+
+/// Takes up place and size in a step. LAMMPS knows neither the velocity of a region in the first step that it is
+/// asked for, nor that of one whose axis is not typed as a unit vector.
+void RegionShape::Part::update(bigint step, double time_step)
+{
+  if (!region->dynamic_check()) return;
+  // the region knows its size in the step before unless this is a new one
+  const bool is_new = region->prev[4] == 0.0;
+  if (motion.step != step || is_new) region->set_velocity();
+  if (motion.step == step) {
+    region->rprev = motion.size_before;
+    return;
+  }
+  const bool goes_on = motion.step >= 0 && step == motion.step + 1;
+  const Vec3 place(region->dx, region->dy, region->dz);
   motion.velocity.setZero();
   motion.angular_velocity.setZero();
-  if (!first && region_->moveflag) motion.velocity = (place - motion.displacement) / time_step;
-  if (!first && region_->rotateflag) {
-    const Vec3 along(region_->omega);
-    if (along.norm() > 0.0)
-      motion.angular_velocity =
-          std::fabs(region_->theta - motion.angle) / time_step * along.normalized();
-  }
-  size_rate_known_ = !first;
-  if (region_->moveflag) motion.displacement = place;
-  if (region_->rotateflag) motion.angle = region_->theta;
+  if (goes_on && region->moveflag) motion.velocity = (place - motion.displacement) / time_step;
+  if (goes_on && region->rotateflag)
+    motion.angular_velocity =
+        (region->theta - motion.angle) / time_step * Vec3(Access::axis_of(region));
+  motion.size_before = goes_on && region->varshape && !is_new ? region->rprev : 0.0;
+  if (region->moveflag) motion.displacement = place;
+  if (region->rotateflag) motion.angle = region->theta;
   motion.step = step;
+}
+
+Vec3 RegionShape::Part::pivot() const
+{
+  return Vec3(Access::pivot_of(region)) + motion.displacement;
 }
 
 /// \return number of places nearer than `reach`, in the region's own list
@@ -139,22 +199,37 @@ eepa::SurfaceVelocity RegionShape::velocity(const SurfacePoint &point, const Vec
                                             const Vec3 &path) const
 {
   eepa::SurfaceVelocity velocity;
-  if (!moves()) return velocity;
-  velocity.linear = motion.velocity;
-  velocity.angular = motion.angular_velocity;
+  const Part &part = part_of(point.face);
+  if (!part.region->dynamic_check()) return velocity;
+  velocity.linear = part.motion.velocity;
+  velocity.angular = part.motion.angular_velocity;
   const Vec3 spot = centre - point.distance * point.normal;
-  if (region_->rotateflag) {
-    const Vec3 pivot(region_->rpoint);
-    const Vec3 arm = spot - path - pivot;
+  if (part.region->rotateflag) {
+    const Vec3 arm = spot - path - part.pivot();
     velocity.linear += velocity.angular.cross(arm);
   }
-  if (!region_->varshape || !size_rate_known_) return velocity;
+  if (!(part.motion.size_before > 0.0)) return velocity;
   const int k = find(point.face, point.normal, centre, 2.0 * point.distance);
-  if (k < 0 || !region_->contact[k].varflag) return velocity;
+  if (k >= 0 && !region_->contact[k].varflag) return velocity;    // an end
   Vec3 growth = Vec3::Zero(), at = spot;
-  region_->velocity_contact_shape(growth.data(), at.data());
+  part.region->velocity_contact_shape(growth.data(), at.data());
   velocity.linear += growth;
   return velocity;
+}
+
+/// That of the fastest part.
+Vec3 RegionShape::drift(const Vec3 &point) const
+{
+  Vec3 most = Vec3::Zero();
+  for (const Part &part : parts_) {
+    Vec3 drift = part.motion.velocity;
+    if (part.region->rotateflag) {
+      const Vec3 arm = point - part.pivot();
+      drift += part.motion.angular_velocity.cross(arm);
+    }
+    if (drift.squaredNorm() > most.squaredNorm()) most = drift;
+  }
+  return most;
 }
 
 /// Goes along the path in steps that can not jump over the surface without a point next to it.

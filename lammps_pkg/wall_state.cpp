@@ -87,7 +87,7 @@ std::string wall_state::damage(const std::vector<double> &state)
     if (!eepa::is_count(state[number.index], number.least, number.most)) return wrong(number.index);
   for (const int index : {EXPONENT, WIGGLE_PERIOD})
     if (state[index] <= 0.0) return wrong(index);
-  for (const int index : {RADIUS, PLATEN_MASS, TIME_STEP})
+  for (const int index : {RADIUS, PLATEN_MASS, TIME_STEP, REGION_SIZE_BEFORE})
     if (state[index] < 0.0) return wrong(index);
   return "";
 }

@@ -4,6 +4,7 @@
 // Restart files of other formats are refused by name.
 
 #include "packing.h"
+#include "wall_state.h"
 
 #include <gtest/gtest.h>
 
@@ -140,7 +141,7 @@ TEST_F(OtherFormat, OfTheWallIsRefusedByName)
   for (const int other : {2, 9}) {    // 2 did not say which surface
     write();
     // format, how many numbers, zplane, lo, at 0
-    patch(4.0, {92.0, 2.0, 1.0, 0.0, 0.0}, other);
+    patch(4.0, {LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, 0.0, 0.0}, other);
     Simulation restarted;
     EXPECT_TRUE(refuses(restarted, "read_restart " + file.name() + "\n" + box + wall,
                         "fix wall wall/gran/eepa: the restart file has format " +

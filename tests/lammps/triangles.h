@@ -5,6 +5,7 @@
 #include "packing.h"
 
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <random>
 #include <string>
@@ -79,6 +80,25 @@ inline std::vector<Corners> box(double half, int cells, bool random = false)
       up[(axis + 2) % 3] = 2.0 * half;
       add_rectangle(triangles, corner, side, up, cells, random, 2 * axis + (sign > 0.0));
     }
+  return triangles;
+}
+
+/// The lateral surface of a regular prism about the z axis, from -half to half, and its ends where wanted.
+/// \param radius  of its corners
+inline std::vector<Corners> prism(int facets, double radius, double half, bool ends)
+{
+  std::vector<Corners> triangles;
+  const auto corner = [&](int k, double z) {
+    const double angle = 2.0 * pi * (k % facets) / facets;
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), z);
+  };
+  for (int k = 0; k < facets; k++) {
+    triangles.push_back({corner(k, -half), corner(k + 1, -half), corner(k + 1, half)});
+    triangles.push_back({corner(k, -half), corner(k + 1, half), corner(k, half)});
+    if (!ends) continue;
+    for (const double z : {-half, half})
+      triangles.push_back({Vec3(0, 0, z), corner(k, z), corner(k + 1, z)});
+  }
   return triangles;
 }
 

@@ -4,6 +4,7 @@
 // does not move the wall and loses no contact.
 
 #include "simulation.h"
+#include "wall_state.h"
 
 #include <gtest/gtest.h>
 
@@ -218,16 +219,16 @@ TEST_F(WallRestartMisfit, OfDamagedNumbersIsNamed)
 {
   const std::string wall = "wall zplane -0.0625 NULL";
   write(wall);
-  damage({4.0, 92.0, 2.0, 1.0, -0.0625}, 0, 2.0);
+  damage({4.0, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625}, 0, 2.0);
   EXPECT_TRUE(refused(wall, "the restart file has format 2, this version reads 3 and 4"));
   write(wall);
-  damage({4.0, 92.0, 2.0, 1.0, -0.0625}, 1, 1e9);
+  damage({4.0, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625}, 1, 1e9);
   EXPECT_TRUE(refused(wall, "the restart file is damaged: count = "));
   write(wall);
-  damage({4.0, 92.0, 2.0, 1.0, -0.0625}, 2, 7.0);
+  damage({4.0, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625}, 2, 7.0);
   EXPECT_TRUE(refused(wall, "the restart file is damaged: kind = 7"));
   write(wall);
-  damage({4.0, 92.0, 2.0, 1.0, -0.0625}, 4, std::nan(""));
+  damage({4.0, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625}, 4, std::nan(""));
   EXPECT_TRUE(refused(wall, "the restart file is damaged: lo = -?nan"));
   // a particle's entry: 12 numbers of 4 values for 1 contact with face 0
   const struct {

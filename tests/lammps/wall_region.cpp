@@ -153,6 +153,50 @@ TEST(RegionWall, TurnsByItsOwnKeywordsAndByTheDrive)
   EXPECT_NEAR(driven.fix("w", 20), 2 * 750 * 1e-4, 1e-12);
 }
 
+// The parts of an intersection move, each in its own way: as two walls.
+TEST(RegionWall, MayHavePartsThatMove)
+{
+  Simulation one, two;
+  for (Simulation *simulation : {&one, &two}) {
+    open(*simulation, 4.0);
+    (*simulation)("variable x equal 0.02*sin(50*step*dt)\nvariable a equal 0.2*sin(50*step*dt)\n"
+                  "region a block -2.0 2.0 -2.0 2.0 -2.0 2.0 move v_x NULL NULL\n"
+                  "region b cylinder z 0 0 2.1 -9 9 rotate v_a 0 0 0 0 0 5");
+  }
+  two("fix w" + law + "region a\nfix v" + law + "region b");
+  one("region r intersect 2 a b\nfix w" + law + "region r");
+  double of_a = 0.0, of_b = 0.0;
+  for (int part = 0; part < 10; part++) {
+    one.run(150);
+    two.run(150);
+    EXPECT_LT(difference(one.particles(), two.particles()), 1e-9) << part;
+    EXPECT_EQ(one.fix("w", CONTACTS), two.fix("w", CONTACTS) + two.fix("v", CONTACTS));
+    of_a += two.fix("w", CONTACTS);
+    of_b += two.fix("v", CONTACTS);
+  }
+  EXPECT_GT(of_a, 5.0);
+  EXPECT_GT(of_b, 5.0);
+}
+
+// A variable of the time step begins anew with reset_timestep: the region jumps, and has no velocity there.
+TEST(RegionWall, DoesNotTakeAJumpForAVelocity)
+{
+  Simulation simulation;
+  simulation.open_box(9.0);
+  simulation.create({{Vec3(0, 0, 0.49)}});
+  simulation("pair_style zero 1.0\npair_coeff * *\nfix integrate all nve/sphere\ntimestep 1e-4\n"
+             "variable x equal 3*step*dt\n"
+             "region r block -9 9 -9 9 0 9 move v_x NULL NULL\n"
+             "fix w all wall/gran/eepa linear coeff 1e4 1e4 0 0 0.5 viscous 5 5 wall region r");
+  simulation.run(100);
+  // the sphere is dragged along by friction, to the limit where the velocity is large
+  EXPECT_GT(simulation.particle(1).f.x(), 0.0);
+  simulation("reset_timestep 0\nrun 0 post no");
+  EXPECT_GT(simulation.particle(1).f.x(), 0.0);
+  simulation("reset_timestep 500\nrun 0 post no");
+  EXPECT_LT(simulation.particle(1).f.x(), 0.4 * simulation.particle(1).f.z());
+}
+
 TEST(RegionWall, NamesWhoGetsThrough)
 {
   for (const char *side : {"in", "out"}) {

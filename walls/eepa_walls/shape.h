@@ -74,6 +74,9 @@ class Shape {
     return {};
   }
 
+  /// Velocity of the surface near a point in its own frame, without what changes its size.
+  virtual Vec3 drift(const Vec3 & /*point*/) const { return Vec3::Zero(); }
+
   /// Whether a contact that was at `face` is the one that is at `now` in this step, because the sphere
   /// slides or rolls from one face to the next one.
   virtual bool continues(int face, const SurfacePoint &now, const Vec3 & /*centre*/) const
