@@ -51,7 +51,7 @@ def arguments() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     for name, value, text in (("radius", 0.010, "of the die"), ("height", 0.026, "of the die"),
-                              ("collar", 0.020, "height"),
+                              ("collar", 0.024, "height"),
                               ("gap", 0.0001, "between punch and die"),
                               ("length", 0.004, "of a punch"), ("cup", 0.0, "depth of its face")):
         parser.add_argument(f"--{name}", type=float, default=value, help=f"{text}, in m")

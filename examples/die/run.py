@@ -24,9 +24,9 @@ from machines import meshes, running, tables  # noqa: E402
 from machines.pictures import draw_section, plt, save  # noqa: E402
 from machines.running import Run  # noqa: E402
 
-SHAPE = {"radius": 0.010, "height": 0.026, "collar": 0.020, "gap": 0.0001, "length": 0.004, "cup": 0.0,
+SHAPE = {"radius": 0.010, "height": 0.026, "collar": 0.024, "gap": 0.0001, "length": 0.004, "cup": 0.0,
          "facets": 72}
-DREF, NREF = 1.0e-3, 8000
+DREF, NREF = 1.0e-3, 6000
 
 
 def cases(arguments: argparse.Namespace) -> List[Run]:

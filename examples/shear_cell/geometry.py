@@ -50,7 +50,7 @@ def arguments() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     for name, value, text in (("inner", 0.016, "radius"), ("outer", 0.032, "radius"),
-                              ("height", 0.04, "of the walls"), ("tooth", 0.003, "height of bars and vanes"),
+                              ("height", 0.05, "of the walls"), ("tooth", 0.003, "height of bars and vanes"),
                               ("gap", 0.0003, "between lid and walls")):
         parser.add_argument(f"--{name}", type=float, default=value, help=f"{text}, in m")
     parser.add_argument("--teeth", type=int, default=20, help="bars, and vanes")

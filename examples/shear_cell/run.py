@@ -26,7 +26,7 @@ from machines.pictures import draw_section, plt, save  # noqa: E402
 from machines.running import Run  # noqa: E402
 
 SHAPE = {"inner": 0.016, "outer": 0.032, "tooth": 0.003, "share": 0.15, "gap": 0.0003}
-MESH = {**SHAPE, "height": 0.04, "teeth": 20, "facets": 120}
+MESH = {**SHAPE, "height": 0.05, "teeth": 20, "facets": 120}
 LEVELS = (0.25, 0.5, 0.75)
 DREF = 1.0e-3
 

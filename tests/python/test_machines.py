@@ -6,6 +6,9 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import io
+import os
+import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -14,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+LMP = os.environ.get("EEPA_LMP")
 
 
 def load(name: str, path: str):
@@ -34,7 +38,7 @@ repose = load("drum_repose", "drum/repose.py")
 yield_locus = load("cell_yield_locus", "shear_cell/yield_locus.py")
 compaction = load("die_compaction", "die/compaction.py")
 
-from machines import meshes, pictures, tables  # noqa: E402  (the modules above set the path)
+from machines import logs, meshes, pictures, running, tables  # noqa: E402  (the modules above set the path)
 
 
 class Meshes(unittest.TestCase):
@@ -385,6 +389,178 @@ class Compaction(unittest.TestCase):
         table = self.table()
         with self.assertRaisesRegex(ValueError, "no stage eject"):
             compaction.tablet(table[table["stage"] < 4], 1.0, 1.0)
+
+
+class Logs(unittest.TestCase):
+    def test_stages_of_a_log(self):
+        text = ("   Step c_x[1]\n 0 1\nLoop time of 1 on 1 procs\nStage fill\n Step v_a c_x[1]\n 0 1 2\n"
+                "WARNING: three words\n 5 2 3\nLoop time of 1\n 7 7 7\n Step v_a c_x[1]\n 5 2 3\nStage done\n")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "log"
+            path.write_text(text)
+            found = logs.stages(path)
+        self.assertEqual(list(found), ["fill"])
+        self.assertEqual(found["fill"].dtype.names, ("Step", "v_a", "c_x_1"))
+        self.assertEqual(list(found["fill"].c_x_1), [2.0, 3.0, 3.0])
+
+
+class Runs(unittest.TestCase):
+    """Of the runner, with a program that takes LAMMPS's place."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.out = Path(folder.name)
+        (self.out / "in.one").write_text("run 0\n")
+        self.lmp = self.out / "lmp"
+
+    def launcher(self, script):
+        self.lmp.write_text(f"#!/bin/sh\n{script}\n")
+        self.lmp.chmod(0o755)
+        return running.Launcher(self.lmp, self.out)
+
+    def start(self, launcher, *runs):
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            launcher.start_all(runs, 2)
+        return said.getvalue()
+
+    def test_a_finished_run_is_not_repeated_until_it_changes(self):
+        launcher = self.launcher(f"echo run >> {self.out}/count")
+        one = running.Run("one", self.out / "in.one", {"d": 1.0})
+        self.start(launcher, one)
+        self.assertIn("1 of them done before", self.start(launcher, one))
+        self.assertEqual((self.out / "count").read_text(), "run\n")
+        (self.out / "in.one").write_text("run 1\n")
+        self.start(launcher, one)
+        self.start(launcher, running.Run("one", self.out / "in.one", {"d": 2.0}))
+        self.assertEqual((self.out / "count").read_text(), "run\n" * 3)
+
+    def test_a_run_waits_for_the_one_it_needs(self):
+        launcher = self.launcher(f'for word; do last=$word; done; echo "$last" >> {self.out}/order')
+        first = running.Run("first", self.out / "in.one", {"a": "first"})
+        second = running.Run("second", self.out / "in.one", {}, {"state": "first"})
+        self.start(launcher, second, first)
+        self.assertEqual((self.out / "order").read_text().split(), ["first", f"{self.out}/runs/first"])
+
+    def test_a_run_that_fails_is_named_with_what_it_said(self):
+        launcher = self.launcher("echo something is wrong; exit 3")
+        with self.assertRaisesRegex(running.RunFailed, "(?s)one: .* status 3.*something is wrong"):
+            self.start(launcher, running.Run("one", self.out / "in.one", {}))
+        self.assertFalse(launcher.is_done(running.Run("one", self.out / "in.one", {})))
+
+    def test_no_lammps_is_named(self):
+        words = running.parser("text", "silo").parse_args(["--lmp", "/no/such/lmp"])
+        with self.assertRaisesRegex(running.RunFailed, "/no/such/lmp"):
+            running.launcher(words)
+
+
+# What of the last line of each stage may differ from the reference log, over its value there: packings of
+# a few hundred particles differ from one compilation to the next, by rounding. A second number is a difference
+# that is allowed in any case. What scatters more from one filling to the other is not compared.
+ALLOWED = {"Time": (0.05, 0.0), "Atoms": (0.03, 0.0), "v_inside": (0.03, 0.0), "c_overlap_6": (0.06, 0.0),
+           "c_overlap_8": (0.3, 0.0), "c_contacts_6": (0.08, 0.0), "c_contacts_8": (0.4, 0.0),
+           "f_drum_20": (0.01, 1e-3), "v_zcm": (0.3, 0.0), "v_strain": (0.1, 0.01), "v_normal": (0.12, 50.0),
+           "v_height": (0.03, 0.0), "v_solid": (0.03, 0.0), "v_thick": (0.08, 0.0)}
+# The commands of the reference logs, as the READMEs have them.
+REFERENCES = {
+    ("silo", "silo"): {"d": 12e-3, "n": 1200, "young": 1e6, "settle": 0.2, "time": 0.2},
+    ("drum", "drum"): {"d": 3e-3, "warm": 0.15, "turns": 0.05},
+    ("shear_cell", "preshear"): {"d": 4e-3, "preshear": 0.4, "rate": 4, "rest": 0.02, "sample": 4e-3},
+    ("shear_cell", "shear"): {"d": 4e-3, "rate": 4, "rest": 0.02, "shearing": 0.1},
+    ("die", "die"): {"d": 3e-3, "approach": 0.3, "release": 0.1, "eject": 0.5, "hold": 2e-3}}
+
+
+@unittest.skipUnless(LMP, "EEPA_LMP names no LAMMPS")
+class Examples(unittest.TestCase):
+    """The examples as a user starts them, so coarse that they take seconds."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.copy = Path(cls.folder.name)
+        for name in ("machines", "silo", "drum", "shear_cell", "die"):
+            shutil.copytree(EXAMPLES / name, cls.copy / name)
+        for name, module in (("silo", silo), ("drum", drum), ("shear_cell", cell), ("die", die)):
+            assert meshes.main(module.arguments(), module.write, ["--out", str(cls.copy / name)]) == 0
+
+    def lammps(self, example, infile, log, variables):
+        words = [LMP, "-in", f"in.{infile}", "-log", log, "-screen", "none"]
+        for name, value in variables.items():
+            words += ["-var", name, str(value)]
+        done = subprocess.run(words, cwd=self.copy / example, text=True, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=600,
+                              env={**os.environ, "OMP_NUM_THREADS": "1"})
+        path = self.copy / example / log
+        self.assertEqual(done.returncode, 0, done.stdout + "\n".join(path.read_text().splitlines()[-8:]))
+        return logs.stages(path)
+
+    def compare(self, example, infile):
+        found = self.lammps(example, infile, f"log.{infile}", REFERENCES[example, infile])
+        expected = logs.stages(EXAMPLES / example / f"log.{infile}")
+        self.assertEqual(list(found), list(expected))
+        for stage, rows in expected.items():
+            self.assertEqual(found[stage].dtype.names, rows.dtype.names)
+            for name in set(rows.dtype.names) & set(ALLOWED):
+                relative, absolute = ALLOWED[name]
+                with self.subTest(stage=stage, column=name):
+                    self.assertLessEqual(abs(found[stage][name][-1] - rows[name][-1]),
+                                         relative * abs(rows[name][-1]) + absolute)
+        return found
+
+    def test_silo(self):
+        self.compare("silo", "silo")
+        mesh = tables.read_table(self.copy / "silo" / "discharge.csv")
+        self.lammps("silo", "silo", "log.region", {**REFERENCES["silo", "silo"], "walls": "region"})
+        region = tables.read_table(self.copy / "silo" / "discharge.csv")
+        self.assertLess(mesh.inside[-1], 1150)
+        self.assertAlmostEqual(mesh.inside[-1] / region.inside[-1], 1.0, delta=0.02)
+
+    def test_drum(self):
+        found = self.compare("drum", "drum")
+        table = tables.read_table(self.copy / "drum" / "drum.csv")
+        # The torque of the drive carries the weight of the powder beside the axis, on average.
+        volume = np.pi / 6.0 * 3e-3**3
+        count = round(0.35 * np.pi * 0.03**2 * 0.02 * 0.58 / volume)
+        weight = count * volume * 2000.0 * 9.81
+        late = table.angle > 0.2
+        self.assertAlmostEqual(table.torque[late].mean() / (-weight * table.xcm[late].mean()), 1.0, delta=0.1)
+        self.assertLess(found["measure"].v_xcm[-1], 0.0)
+        angles = repose.angles([shot.positions() for shot in
+                                tables.read_dump(self.copy / "drum" / "drum.dump")], 3e-3, 0.03, 0.02)
+        self.assertGreater(np.mean(angles), 20.0)
+        self.assertLess(np.mean(angles), 75.0)
+
+    def test_shear_cell(self):
+        self.compare("shear_cell", "preshear")
+        before = tables.read_table(self.copy / "shear_cell" / "preshear.csv")
+        found = self.compare("shear_cell", "shear")
+        # The restart goes on where preshear ended.
+        self.assertAlmostEqual(found["reverse"].v_height[0] / before.height[-1], 1.0, places=3)
+        self.assertAlmostEqual(found["reverse"].v_strain[0], before.strain[-1], delta=0.01)
+        after = tables.read_table(self.copy / "shear_cell" / "shear.csv")
+        self.assertAlmostEqual(after.normal.mean() / 2.5e3, 1.0, delta=0.1)
+        self.assertGreater(after.shear.max(), 500.0)
+
+    def test_die(self):
+        self.compare("die", "die")
+        table = tables.read_table(self.copy / "die" / "die.csv")
+        volume = 222 * np.pi / 6.0 * 3e-3**3
+        made = compaction.tablet(table, volume, np.pi * 0.01**2)
+        self.assertGreater(made.solid_loaded, made.solid_out)
+        self.assertGreater(made.residual, 1e3)
+        self.assertGreater(made.ejection, 0.3)
+
+    def test_wrong_variables_stop_with_a_message(self):
+        for example, infile, variables, text in (
+                ("silo", "silo", {"walls": "paper"}, "walls is paper, allowed are mesh and region"),
+                ("silo", "silo", {"n": 10**6}, "do not fit into the silo"),
+                ("drum", "drum", {"scaled": "maybe"}, "scaled is maybe, allowed are yes and no"),
+                ("drum", "drum", {"fill": 0.9}, "fill is 0.9, too much"),
+                ("shear_cell", "preshear", {"walls": 0.01}, "the walls end at 0.01 m")):
+            with self.subTest(variables=variables), self.assertRaisesRegex(AssertionError, text):
+                self.lammps(example, infile, "log.wrong", {"d": 2e-3, **variables})
 
 
 if __name__ == "__main__":
