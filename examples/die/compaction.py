@@ -14,7 +14,8 @@ class Tablet:
     """:param solid_loaded, solid_out: solid fractions under the pressure and of the tablet outside
     :param radial_loaded: radial stress at the wall over the axial one, under the pressure
     :param residual: radial stress at the wall after unloading
-    :param ejection: largest force of the lower punch while the tablet is pushed out
+    :param ejection: largest force of the lower punch while the tablet is pushed out, as mean over a
+        fiftieth of the way: the punch starts at once, and the tablet rings
     :param recovery: growth of the thickness from the pressure to the end
     """
 
@@ -40,11 +41,13 @@ def tablet(table: np.ndarray, particles_volume: float, area: float) -> Tablet:
     # The upper punch has left the tablet: the last fifth of its way.
     free = unload[-max(1, len(unload) // 5):]
     eject = table[table["stage"] == EJECT]
+    window = max(1, len(eject) // 50)
+    force = np.convolve(eject["bottom"], np.full(window, 1.0 / window), "valid")
     axial = 0.5 * (loaded["top"].mean() + loaded["bottom"].mean())
     return Tablet(
         solid_loaded=float(particles_volume / (area * loaded["thickness"].mean())),
         solid_out=float(particles_volume / (area * eject["thickness"][-1])),
         radial_loaded=float(loaded["side"].mean() / axial),
         residual=float(free["side"].mean()),
-        ejection=float(area * np.max(eject["bottom"])),
+        ejection=float(area * force.max()),
         recovery=float(eject["thickness"][-1] / loaded["thickness"].mean() - 1.0))

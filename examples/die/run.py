@@ -93,7 +93,7 @@ def draw(launcher: running.Launcher, runs: Sequence[Run]) -> None:
     for axis, name in zip(axes[2:], ("compacted", "ejected")):
         (shot,) = tables.read_dump(launcher.folder(runs[0]) / f"{name}.dump")
         draw_section(axis, shot.positions(), shot.columns["radius"], walls)
-        axis.set_title(name, fontsize=10)
+        axis.set(title=name, xlim=(-13.0, 13.0), ylim=(-2.0, 1e3 * (SHAPE["height"] + SHAPE["collar"])))
     save(figure, launcher.out / "die.png")
 
 

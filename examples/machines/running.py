@@ -6,6 +6,7 @@ import argparse
 import hashlib
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -51,9 +52,9 @@ class Launcher:
     def command(self, run: Run) -> List[str]:
         folder = self.folder(run)
         words = ["mpirun", "-np", str(self.ranks)] if self.ranks > 1 else []
-        words += [str(self.lmp), "-in", str(run.infile), "-log", str(folder / "log.lammps"),
-                  "-screen", "none", "-var", "out", str(folder), "-var", "files",
-                  str(run.infile.parent)]
+        words += [str(self.lmp), "-in", str(folder / run.infile.name), "-log", str(folder / "log.lammps"),
+                  "-screen", "none", "-var", "out", str(folder), "-var", "files", str(folder), "-var",
+                  "shared", str(folder)]
         for name, value in run.variables.items():
             words += ["-var", name, *([str(v) for v in value] if isinstance(value, (list, tuple))
                                       else [str(value)])]
@@ -64,7 +65,7 @@ class Launcher:
     def fingerprint(self, run: Run) -> str:
         """Of the command and the in-files, but not of the executable: rebuilding it makes no run old."""
         content = hashlib.sha256(json.dumps(self.command(run)).encode())
-        for path in sorted(run.infile.parent.glob("in.*")):
+        for path in _infiles(run):
             content.update(path.read_bytes())
         return content.hexdigest()
 
@@ -84,6 +85,10 @@ class Launcher:
         folder = self.folder(run)
         folder.mkdir(parents=True, exist_ok=True)
         (folder / _MARKER).unlink(missing_ok=True)
+        # LAMMPS reads in-files during the run, and an edit meanwhile must not change a run that has begun.
+        fingerprint = self.fingerprint(run)
+        for path in _infiles(run):
+            shutil.copyfile(path, folder / path.name)
         begin = time.monotonic()
         done = subprocess.run(self.command(run), env={**os.environ, **_mpi_settings(),
                                                       "OMP_NUM_THREADS": "1"},
@@ -95,7 +100,7 @@ class Launcher:
             raise RunFailed("\n".join([f"{run.name}: {' '.join(self.command(run))} ended with status "
                                        f"{done.returncode}", *done.stdout.splitlines()[-_LAST_LINES:],
                                        *lines[-_LAST_LINES:]]))
-        marker = {"fingerprint": self.fingerprint(run), "seconds": time.monotonic() - begin,
+        marker = {"fingerprint": fingerprint, "seconds": time.monotonic() - begin,
                   "variables": {name: str(value) for name, value in run.variables.items()}}
         (folder / _MARKER).write_text(json.dumps(marker, indent=1), encoding="utf-8")
 
@@ -111,6 +116,11 @@ class Launcher:
                 for run, _ in zip(ready, pool.map(self.start, ready)):
                     print(f"  {run.name}: {self.seconds(run):.0f} s", flush=True)
             waiting = [run for run in waiting if run not in ready]
+
+
+def _infiles(run: Run) -> List[Path]:
+    """Those of the example and those that all examples share."""
+    return sorted({*run.infile.parent.glob("in.*"), *Path(__file__).resolve().parent.glob("in.*")})
 
 
 def _mpi_settings() -> Dict[str, str]:

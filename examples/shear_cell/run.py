@@ -132,11 +132,14 @@ def picture(launcher: running.Launcher, first: Run) -> None:
     (shot,) = tables.read_dump(folder / "preshear.dump")
     table = tables.read_table(folder / "preshear.csv")
     lid = 1e-3 * meshes.read_stl(launcher.out / "lid.stl")
-    lid = meshes.moved(lid, z=float(table.height[-1]))
+    cos, sin = np.cos(table.angle[-1]), np.sin(table.angle[-1])
+    lid = meshes.moved(lid @ np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]),
+                       z=float(table.height[-1]))
     walls = [1e-3 * meshes.read_stl(launcher.out / f"{name}.stl") for name in ("bottom", "sides")]
-    figure, axis = plt.subplots(figsize=(9.0, 4.0), constrained_layout=True)
+    figure, axis = plt.subplots(figsize=(9.0, 3.6), constrained_layout=True)
     speed = np.abs(shot.columns["vy"])
     circles = draw_section(axis, shot.positions(), shot.columns["radius"], [lid, *walls], 1e3 * speed)
+    axis.set_ylim(-2.0, 26.0)
     figure.colorbar(circles, ax=axis, label="speed across the section (mm/s)", shrink=0.8)
     axis.set_title(first.name.rsplit("_seed", 1)[0].replace("_", ", "), fontsize=10)
     save(figure, launcher.out / "shear_cell.png")

@@ -62,7 +62,7 @@ def powder(arguments: argparse.Namespace) -> List[Run]:
                     runs.append(Run(
                         f"powder_orifice{2e3 * orifice:g}mm_d{1e3 * d:g}mm_{mode}_seed{seed}",
                         HERE / "in.silo", {
-                            "material": "../machines/in.powder", "scaled": scaled, "d": d,
+                            "material": "powder", "scaled": scaled, "d": d,
                             "n": round(NREF * (DREF / d)**3), "seed": seed, "shots": 10, "settle": 0.15,
                             "time": time, "stl": folder, **shape}))
     return runs
