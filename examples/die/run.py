@@ -32,6 +32,7 @@ DREF, NREF = 1.0e-3, 6000
 def cases(arguments: argparse.Namespace) -> List[Run]:
     diameters = [1.0e-3, 1.5e-3, 2.0e-3] if arguments.full else [2.0e-3]
     modes = ("yes", "no") if arguments.full else ("yes",)
+    fast = {} if arguments.full else {"approach": 0.2, "release": 0.05, "eject": 0.3, "hold": 5e-3}
     runs = []
     for d in diameters:
         for scaled in modes:
@@ -42,7 +43,7 @@ def cases(arguments: argparse.Namespace) -> List[Run]:
                                 HERE / "in.die", {"d": d, "scaled": scaled, "seed": 1000 + seed,
                                                   "nref": NREF, "radius": SHAPE["radius"],
                                                   "height": SHAPE["height"], "collar": SHAPE["collar"],
-                                                  "stl": arguments.out}))
+                                                  "stl": arguments.out, **fast}))
     return runs
 
 

@@ -33,7 +33,7 @@ DREF = 1.0e-3
 def cases(arguments: argparse.Namespace) -> List[Run]:
     diameters = [1.0e-3, 1.5e-3, 2.0e-3] if arguments.full else [2.0e-3]
     seeds = arguments.seeds or (3 if arguments.full else 1)
-    turns = {"warm": 1.0, "turns": 2.0} if arguments.full else {"warm": 0.25, "turns": 0.25}
+    turns = {"warm": 1.0, "turns": 2.0} if arguments.full else {"warm": 0.2, "turns": 0.15}
     runs = []
     for d in diameters:
         for scaled in ("yes", "no"):

@@ -33,11 +33,11 @@ DREF = 1.0e-3
 
 def cases(arguments: argparse.Namespace) -> List[Tuple[str, Run, List[Run]]]:
     """Of each seed the name of its case, the run of preshear, and those of shear at lower stresses."""
-    diameters = [1.0e-3, 1.5e-3, 2.0e-3] if arguments.full else [2.0e-3]
+    diameters = [1.0e-3, 1.5e-3, 2.0e-3] if arguments.full else [2.5e-3]
     modes = ("yes", "no") if arguments.full else ("yes",)
     seeds = arguments.seeds or (3 if arguments.full else 1)
-    strains = ({"preshear": 1.0}, {"shearing": 0.2}) if arguments.full else ({"preshear": 0.5, "rate": 2.0},
-                                                                             {"shearing": 0.12, "rate": 2.0})
+    strains = (({"preshear": 1.0}, {"shearing": 0.2}) if arguments.full else
+               ({"preshear": 0.4, "rate": 3.0}, {"shearing": 0.08, "rate": 3.0}))
     tests = []
     for d in diameters:
         for scaled in modes:
