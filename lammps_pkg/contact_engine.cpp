@@ -14,22 +14,21 @@ namespace {
     using Layout = typename ContactLaw::Layout;
 
    public:
-    int evaluate_lanes([[maybe_unused]] const eepa::Coefficients &given,
+    int evaluate_lanes([[maybe_unused]] const CoefficientClasses &classes,
                        [[maybe_unused]] double time_step,
                        [[maybe_unused]] const ParticleArrays &particles,
                        [[maybe_unused]] const ForceArrays &forces,
                        [[maybe_unused]] const FoundContact *found, [[maybe_unused]] int count,
                        [[maybe_unused]] ContactSlice &slice) const override
     {
-      int n = 0;
 #ifdef EEPA_HAS_LANES
-      const eepa::Coefficients c = given;    // a local copy, which no store of a force can alias
-      const ParticleArrays p = particles;
-      const ForceArrays f = forces;
-      for (; n + ContactLanes::width <= count; n += ContactLanes::width)
-        ContactLanes(found + n).evaluate<ContactLaw>(c, time_step, p, f, slice);
+      return classes.all_the_same() ? evaluate_all(SameCoefficients(classes), time_step, particles,
+                                                   forces, found, count, slice)
+                                    : evaluate_all(OwnCoefficients(classes), time_step, particles,
+                                                   forces, found, count, slice);
+#else
+      return 0;
 #endif
-      return n;
     }
 
     ContactOutcome evaluate(const eepa::Coefficients &c, const StepRequest &request,
@@ -87,6 +86,28 @@ namespace {
     {
       return Layout::size;
     }
+
+#ifdef EEPA_HAS_LANES
+   private:
+    /// evaluate_lanes() for one source of coefficients. Each source has a function to itself:
+    /// inlined into one, they would share its registers, and both would be slower.
+    /// \tparam CoefficientSource  SameCoefficients or OwnCoefficients
+    template <class CoefficientSource>
+    [[gnu::noinline]] static int evaluate_all(const CoefficientSource &given, double time_step,
+                                              const ParticleArrays &particles,
+                                              const ForceArrays &forces, const FoundContact *found,
+                                              int count, ContactSlice &slice)
+    {
+      const CoefficientSource source =
+          given;    // local copies, which no store of a force can alias
+      const ParticleArrays p = particles;
+      const ForceArrays f = forces;
+      int n = 0;
+      for (; n + ContactLanes::width <= count; n += ContactLanes::width)
+        ContactLanes(found + n).evaluate<ContactLaw>(source, time_step, p, f, slice);
+      return n;
+    }
+#endif
   };
 
 }    // namespace

@@ -2,6 +2,7 @@
 #ifndef LMP_EEPA_CONTACT_ENGINE_H
 #define LMP_EEPA_CONTACT_ENGINE_H
 
+#include "coefficient_classes.h"
 #include "contact_slice.h"
 #include "particle_arrays.h"
 
@@ -56,10 +57,10 @@ class ContactEngine {
  public:
   virtual ~ContactEngine() = default;
 
-  /// Evaluates contacts of one pair of types side by side and adds their forces.
+  /// Evaluates contacts side by side and adds their forces.
   /// \param found  `count` contacts
   /// \return how many were evaluated: the first ones, as many as fill the lanes
-  virtual int evaluate_lanes(const eepa::Coefficients &c, double time_step,
+  virtual int evaluate_lanes(const CoefficientClasses &classes, double time_step,
                              const ParticleArrays &particles, const ForceArrays &forces,
                              const FoundContact *found, int count, ContactSlice &slice) const = 0;
 

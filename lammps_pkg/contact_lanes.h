@@ -4,6 +4,7 @@
 
 // Gathers the bodies of as many contacts as the kernel's Lanes hold, and scatters their wrenches.
 
+#include "coefficient_classes.h"
 #include "contact_slice.h"
 #include "particle_arrays.h"
 
@@ -12,6 +13,45 @@
 #ifdef EEPA_HAS_LANES
 
 namespace LAMMPS_NS {
+
+/// Coefficients of a run in which all contacts have the same.
+class SameCoefficients {
+ public:
+  explicit SameCoefficients(const CoefficientClasses &classes) : all_(classes.first()) {}
+
+  template <class Atoms>
+  EEPA_FUNCTION const eepa::Coefficients &of(const ParticleArrays &, const Atoms &,
+                                             const Atoms &) const
+  {
+    return all_;
+  }
+
+ private:
+  eepa::Coefficients all_;
+};
+
+/// Coefficients that are gathered for each contact by the types of its particles.
+class OwnCoefficients {
+ public:
+  explicit OwnCoefficients(const CoefficientClasses &classes) :
+      some_(classes.first()), table_(classes.table())
+  {
+  }
+
+  template <class Atoms>
+  EEPA_FUNCTION eepa::CoefficientsOf<eepa::Lanes> of(const ParticleArrays &p, const Atoms &i,
+                                                     const Atoms &j) const
+  {
+    eepa::LanePointers<const eepa::CoefficientRows> rows;
+    for (std::size_t lane = 0; lane < eepa::Lanes::size(); lane++)
+      rows[lane] = table_(p.type[i[lane]], p.type[j[lane]]);
+    return eepa::gather_coefficients(rows, some_);
+  }
+
+ private:
+  eepa::Coefficients some_;
+  CoefficientClasses::Table table_;
+};
 
 /// As many contacts as there are lanes.
 class ContactLanes {
@@ -29,8 +69,9 @@ class ContactLanes {
   }
 
   /// Evaluates the law, stores states and statuses and adds the forces.
-  template <class ContactLaw>
-  EEPA_FUNCTION void evaluate(const eepa::Coefficients &c, double time_step,
+  /// \tparam CoefficientSource  SameCoefficients or OwnCoefficients
+  template <class ContactLaw, class CoefficientSource>
+  EEPA_FUNCTION void evaluate(const CoefficientSource &source, double time_step,
                               const ParticleArrays &p, const ForceArrays &forces,
                               ContactSlice &slice)
   {
@@ -40,7 +81,8 @@ class ContactLanes {
     const eepa::ContactOf<Lanes> contact = eepa::contact_of<ContactLaw>(i, j, time_step);
     note_depth(contact, eepa::min(i.radius, j.radius), slice);
     eepa::HistoryOf<Lanes> history = eepa::load_history<Layout>(history_);
-    const eepa::ResponseOf<Lanes> response = ContactLaw::evaluate(c, contact, time_step, history);
+    const eepa::ResponseOf<Lanes> response =
+        ContactLaw::evaluate(source.of(p, i_, j_), contact, time_step, history);
     eepa::store_history<Layout>(history, history_);
     // looked up only here, because there are too few registers to keep them from the start
     eepa::LanePointers<int> status;

@@ -7,7 +7,6 @@
 
 #include <eepa/vector.h>
 
-#include <array>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -24,15 +23,6 @@ struct FoundContact {
   int i, j;
   int *status;        ///< see eepa::ContactStatus
   double *history;    ///< see eepa::HistoryIndex
-};
-
-/// Contacts with the same coefficients, gathered over several blocks. Where particles have many types,
-/// one block holds few contacts of each class of coefficients, and lanes would run empty.
-struct ContactQueue {
-  static constexpr int size = 32;
-
-  std::array<FoundContact, size> contacts;
-  int count = 0;
 };
 
 /// Force of a contact on a particle that another slice writes.
@@ -59,7 +49,6 @@ struct ContactSlice {
   int deferrable = 0;                    // forces are deferred for atoms below this index
   std::vector<TouchingPair> touching;
   std::vector<FoundContact> contacts;     // of a block
-  std::vector<ContactQueue> queues;       // one a class of coefficients, where there are several
   std::vector<DeferredForce> deferred;    // forces on atoms of other slices
   EnergyLedger ledger;                    // of this force call
   AtomLosses *atom_losses = nullptr;      // where they are kept
@@ -70,7 +59,7 @@ struct ContactSlice {
   {
     return static_cast<double>(
         touching.capacity() * sizeof(TouchingPair) + contacts.capacity() * sizeof(FoundContact) +
-        queues.capacity() * sizeof(ContactQueue) + deferred.capacity() * sizeof(DeferredForce));
+        deferred.capacity() * sizeof(DeferredForce));
   }
   bool writes(int atom) const
   {

@@ -204,7 +204,7 @@ void PairGranEepa::init_style()
   fix_history->keep_parting_contacts(keep_ledger);
   warn_of_fixes();
   engine = make_contact_engine(style.settings, rolling, twisting);
-  coefficient_classes.clear();    // made again after init_one()
+  classes.clear();    // made again after init_one()
   // the request comes last: after an error LAMMPS would keep that of a pair style that may be gone
   neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
 }
@@ -277,25 +277,6 @@ double PairGranEepa::init_one(int i, int j)
                    max_radius_dynamic[i] + max_radius_frozen[j]});
 }
 
-void PairGranEepa::choose_classes()
-{
-  // pair_coeff * * gives many pairs of types the same coefficients
-  std::vector<std::array<double, eepa::packed_parameters_size>> given;
-  coefficient_classes.clear();
-  class_of_pair.assign(coefficients.size(), 0);
-  for (int i = 1; i <= atom->ntypes; i++) {
-    for (int j = i; j <= atom->ntypes; j++) {
-      const auto own = eepa::pack(parameters[pair_index(i, j)]);
-      const auto same = std::find(given.begin(), given.end(), own);
-      class_of_pair[pair_index(i, j)] = class_of_pair[pair_index(j, i)] =
-          static_cast<int>(same - given.begin());
-      if (same != given.end()) continue;
-      given.push_back(own);
-      coefficient_classes.push_back(coefficients[pair_index(i, j)]);
-    }
-  }
-}
-
 void PairGranEepa::setup()
 {
   if (masses.has_bodies()) masses.collect_bodies();    // those of ghosts in compute()
@@ -345,7 +326,8 @@ double PairGranEepa::memory_usage()
 {
   double bytes = Pair::memory_usage() + masses.memory_usage() + atom_losses.memory_usage() +
       static_cast<double>(parameters.capacity() * sizeof(eepa::Parameters) +
-                          coefficients.capacity() * sizeof(eepa::Coefficients));
+                          coefficients.capacity() * sizeof(eepa::Coefficients)) +
+      classes.memory_usage();
   for (const ContactSlice &slice : slices) bytes += slice.memory_usage();
   return bytes;
 }

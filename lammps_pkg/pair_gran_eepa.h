@@ -11,6 +11,7 @@ PairStyle(gran/eepa,PairGranEepa);
 #include "pair.h"
 
 #include "atom_losses.h"
+#include "coefficient_classes.h"
 #include "contact_engine.h"
 #include "contact_masses.h"
 #include "contact_slice.h"
@@ -117,8 +118,7 @@ class PairGranEepa : public Pair {
   eepa::StyleArguments style;
   std::vector<eepa::Parameters> parameters;                    // as given or mixed, (ntypes+1)^2
   std::vector<eepa::Coefficients> coefficients;                // resolved, (ntypes+1)^2
-  std::vector<eepa::Coefficients> coefficient_classes;         // different ones among them
-  std::vector<int> class_of_pair;                              // (ntypes+1)^2
+  CoefficientClasses classes;                                  // different ones among them
   eepa::RollingModel rolling = eepa::RollingModel::none;       // the model of all pairs of types
   eepa::TwistingModel twisting = eepa::TwistingModel::none;    // likewise
   ContactMasses masses;
@@ -154,7 +154,6 @@ class PairGranEepa : public Pair {
   }
   int ntypes_allocated = 0;
   void allocate();
-  void choose_classes();
   void init_history();
   void init_radii();
   double largest_partner(int type) const;
@@ -180,10 +179,7 @@ class PairGranEepa : public Pair {
   void work_through(ContactSlice &);
   void open_contact(ContactSlice &, int i, int slot);
   void evaluate_block(ContactSlice &, int count);
-  void evaluate_queue(ContactSlice &, int which);
-  /// Evaluates contacts of one pair of types.
-  void evaluate(ContactSlice &, const FoundContact *, int count, const eepa::Coefficients &);
-  void evaluate_scalar(ContactSlice &, const FoundContact &, const eepa::Coefficients &);
+  void evaluate_scalar(ContactSlice &, const FoundContact &);
   void book_opening(ContactSlice &, int i, int neighbor, const double *history) const;
   double share_of_pair(int j) const;
   void hand_over_atom_losses();

@@ -27,14 +27,15 @@ using eepa::Vec3;
 
 ParticleArrays PairGranEepa::particle_arrays()
 {
-  return {atom->x[0], atom->v[0], atom->omega[0], atom->radius, masses.masses()};
+  return {atom->x[0], atom->v[0], atom->omega[0], atom->radius, masses.masses(),
+          atom->type};
 }
 
 void PairGranEepa::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   // not in setup(), which rerun does not call
-  if (coefficient_classes.empty()) choose_classes();
+  if (classes.empty()) classes.choose(atom->ntypes, parameters, coefficients);
   if (masses.has_bodies() && neighbor->ago == 0) {
     masses.collect_bodies();
     comm->forward_comm(this);
@@ -181,10 +182,6 @@ void PairGranEepa::work_through(ContactSlice &slice)
   slice.atom_losses = keep_atom_losses ? &atom_losses : nullptr;
   slice.deferred_losses.clear();
   slice.deep_i = slice.deep_j = -1;
-  const std::size_t classes = coefficient_classes.size();
-  slice.queues.resize(classes > 1 ? classes : 0);
-  // an error may have ended the force call before this one
-  for (ContactQueue &queue : slice.queues) queue.count = 0;
   const NeighborRows rows = rows_of(*list, *fix_history);
   const ParticleArrays p = particles;
   const ForceArrays f = forces;
@@ -229,8 +226,6 @@ void PairGranEepa::work_through(ContactSlice &slice)
     }
   }
   evaluate_block(slice, static_cast<int>(count));
-  for (std::size_t which = 0; which < slice.queues.size(); which++)
-    evaluate_queue(slice, static_cast<int>(which));
 }
 
 void PairGranEepa::open_contact(ContactSlice &slice, int i, int slot)
@@ -268,52 +263,22 @@ void PairGranEepa::evaluate_block(ContactSlice &slice, int count)
     };
     count = static_cast<int>(std::remove_if(touching, touching + count, is_held) - touching);
   }
-  if (slice.queues.empty()) {
-    if (static_cast<int>(slice.contacts.size()) < count) slice.contacts.resize(count);
-    FoundContact *found = slice.contacts.data();
-    for (int n = 0; n < count; n++) look_up(touching[n], partner_of(touching[n]), found[n]);
-    evaluate(slice, found, count, coefficient_classes.front());
-    return;
-  }
-  // lanes have one set of coefficients
-  const int *type = atom->type, *class_of = class_of_pair.data();
-  const int types = ntypes_allocated + 1;
-  ContactQueue *queues = slice.queues.data();
-  for (int n = 0; n < count; n++) {
-    const int j = partner_of(touching[n]);
-    const int which = class_of[type[touching[n].i] * types + type[j]];
-    ContactQueue &queue = queues[which];
-    look_up(touching[n], j, queue.contacts[queue.count]);
-    if (++queue.count == ContactQueue::size) evaluate_queue(slice, which);
-  }
-}
-
-void PairGranEepa::evaluate_queue(ContactSlice &slice, int which)
-{
-  ContactQueue &queue = slice.queues[which];
-  if (queue.count == 0) return;
-  evaluate(slice, queue.contacts.data(), queue.count, coefficient_classes[which]);
-  queue.count = 0;
-}
-
-/* ---------------------------------------------------------------------- evaluating them */
-
-void PairGranEepa::evaluate(ContactSlice &slice, const FoundContact *contacts, int count,
-                            const eepa::Coefficients &c)
-{
+  if (static_cast<int>(slice.contacts.size()) < count) slice.contacts.resize(count);
+  FoundContact *found = slice.contacts.data();
+  for (int n = 0; n < count; n++) look_up(touching[n], partner_of(touching[n]), found[n]);
   const int done =
-      in_lanes ? engine->evaluate_lanes(c, dt, particles, forces, contacts, count, slice) : 0;
-  for (int n = done; n < count; n++) evaluate_scalar(slice, contacts[n], c);
+      in_lanes ? engine->evaluate_lanes(classes, dt, particles, forces, found, count, slice) : 0;
+  for (int n = done; n < count; n++) evaluate_scalar(slice, found[n]);
 }
 
-void PairGranEepa::evaluate_scalar(ContactSlice &slice, const FoundContact &found,
-                                   const eepa::Coefficients &c)
+void PairGranEepa::evaluate_scalar(ContactSlice &slice, const FoundContact &found)
 {
   const int i = found.i, j = found.j;
   const int slot = static_cast<int>(found.status - fix_history->firstflag[i]);
   const double factor = force->special_lj[sbmask(list->firstneigh[i][slot])];
   if (factor == 0.0) return;
 
+  const eepa::Coefficients &c = coefficients[pair_index(atom->type[i], atom->type[j])];
   const eepa::Contact contact =
       eepa::contact_of(particles.body(i), particles.body(j), request.time_step);
   if (eepa::too_deep(contact.overlap, std::min(particles.radius[i], particles.radius[j])))

@@ -12,6 +12,7 @@ namespace LAMMPS_NS {
 struct ParticleArrays {
   const double *x, *v, *omega;    ///< 3 doubles an atom
   const double *radius, *mass;    ///< 1 double an atom
+  const int *type;
 
   static Eigen::Map<const eepa::Vec3> at(const double *array, int i)
   {

@@ -3,33 +3,38 @@
 #define EEPA_COEFFICIENTS_H
 
 #include "parameters.h"
+#include "real.h"
 
 #include <cmath>
 
 namespace eepa {
 
 /// Coefficients that the force loop reads for one pair of types: the parameters at d_ref, and what
-/// derives from them and is the same for all contacts.
-struct Coefficients {
-  double k1, k2, k_adh, f0;      ///< as in Parameters
-  double mu, kt;                 ///< as in Parameters, kt resolved
-  double depth;                  ///< as in Parameters
-  FrictionBound bound;           ///< as in Parameters
-  double inverse_kt;             ///< 1/kt; 0 where kt = 0
-  double plastic_fraction;       ///< linear: (delta_p/delta_max)^n = 1 - k1/k2; plateau: k1/k2
-  double adhesive_memory;        ///< linear: delta_max/delta on the adhesive branch, >= 1
-  double loading_loss;           ///< energy lost by loading to delta_max, see NormalLaw::loss
-  double adhesive_loss;          ///< linear: energy lost by the adhesive branch, likewise
-  double restitution_damping;    ///< B_n / sqrt(m* k1), [0, 2]; 0 for given dashpots
-  double tangential_ratio;       ///< sqrt(kt/k1): B_t/B_n of restitution damping for n = 1
-  double viscous_normal;         ///< given B_n, else 0
-  double viscous_tangential;     ///< given B_t, else 0
-  double mu_r, kr, inverse_kr, rolling_viscous;
-  double twisting_share;                ///< twisting bound over friction bound; 0: no model
+/// derives from them and is the same for all contacts of these types.
+/// \tparam Number  double; or Lanes, for contacts of several pairs of types side by side
+template <class Number> struct CoefficientsOf {
+  Number k1, k2, k_adh, f0;      ///< as in Parameters
+  Number mu, kt;                 ///< as in Parameters, kt resolved
+  Number depth;                  ///< as in Parameters
+  Number contact_bound;          ///< 1 for FrictionBound::contact, else 0
+  Number inverse_kt;             ///< 1/kt; 0 where kt = 0
+  Number plastic_fraction;       ///< linear: (delta_p/delta_max)^n = 1 - k1/k2; plateau: k1/k2
+  Number adhesive_memory;        ///< linear: delta_max/delta on the adhesive branch, >= 1
+  Number restitution_damping;    ///< B_n / sqrt(m* k1), [0, 2]; 0 for given dashpots
+  Number tangential_ratio;       ///< sqrt(kt/k1): B_t/B_n of restitution damping for n = 1
+  Number viscous_normal;         ///< given B_n, else 0
+  Number viscous_tangential;     ///< given B_t, else 0
+  Number mu_r, kr, inverse_kr, rolling_viscous;
+  Number twisting_share;    ///< twisting bound over friction bound; 0: no model
+  // of the energy ledger, which takes one contact at a time
+  double loading_loss;     ///< energy lost by loading to delta_max, see NormalLaw::loss
+  double adhesive_loss;    ///< linear: energy lost by the adhesive branch, likewise
+  // the same for all pairs of types
   double exponent;                      ///< n
   double inverse_reference_diameter;    ///< 1/d_ref, or 0 when nothing scales
   bool limit_damping;                   ///< as in LawSettings
 };
+using Coefficients = CoefficientsOf<double>;
 
 /// B_n / sqrt(m* k1) for a coefficient of restitution e of the linear spring-dashpot.
 ///
@@ -67,7 +72,7 @@ EEPA_FUNCTION Coefficients resolve(const Parameters &p, const LawSettings &s)
   c.f0 = p.f0;
   c.mu = p.mu;
   c.depth = p.depth;
-  c.bound = p.bound;
+  c.contact_bound = p.bound == FrictionBound::contact ? 1.0 : 0.0;
   c.kt = tangential_stiffness(p);
   c.inverse_kt = c.kt > 0.0 ? 1.0 / c.kt : 0.0;
   c.exponent = s.exponent;
@@ -127,8 +132,8 @@ using Scale = ScaleOf<double>;
 /// The scale of a contact.
 /// \param c  coefficients of its types
 /// \param size  d: R_i + R_j between particles, 2 R_i at a wall [length], > 0
-template <class Real>
-EEPA_FUNCTION ScaleOf<Real> contact_scale(const Coefficients &c, const Real &size)
+template <class Number, class Real>
+EEPA_FUNCTION ScaleOf<Real> contact_scale(const CoefficientsOf<Number> &c, const Real &size)
 {
   ScaleOf<Real> scale;
   if (c.inverse_reference_diameter > 0.0) {

@@ -42,8 +42,8 @@ template <class Real> struct Dashpots {
   Real normal, tangential;     ///< B_n and B_t
 };
 
-template <class NormalLaw, class Real>
-EEPA_FUNCTION Dashpots<Real> dashpots(const Coefficients &c, const ScaleOf<Real> &scale,
+template <class NormalLaw, class Number, class Real>
+EEPA_FUNCTION Dashpots<Real> dashpots(const CoefficientsOf<Number> &c, const ScaleOf<Real> &scale,
                                       const Real &effective_mass, const Real &overlap)
 {
   using std::sqrt;
@@ -62,11 +62,14 @@ EEPA_FUNCTION Dashpots<Real> dashpots(const Coefficients &c, const ScaleOf<Real>
 }
 
 /// Largest |f_t| [force]. It depends on f_hys, never on the normal dashpot.
-template <class Real>
-EEPA_FUNCTION Real friction_bound(const Coefficients &c, const NormalForceOf<Real> &normal)
+template <class Number, class Real>
+EEPA_FUNCTION Real friction_bound(const CoefficientsOf<Number> &c,
+                                  const NormalForceOf<Real> &normal)
 {
-  if (c.bound == FrictionBound::contact) return c.mu * eepa::max<Real>(normal.force, 0.0);
-  return eepa::max<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, 0.0);
+  const Real adhesive = eepa::max<Real>(c.mu * normal.coulomb_force + normal.coulomb_offset, 0.0);
+  const auto by_contact = c.contact_bound > 0.0;
+  if (!any(by_contact)) return adhesive;
+  return select(by_contact, Real(c.mu * eepa::max<Real>(normal.force, 0.0)), adhesive);
 }
 
 /// The law of one contact: normal, tangential, damping, rolling and twisting composed.
@@ -87,8 +90,9 @@ template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> s
   static constexpr int history_size = Layout::size;
 
   /// Relation of the coefficients of a contact to those at d_ref.
-  template <class Real>
-  EEPA_FUNCTION static ScaleOf<Real> scale_of(const Coefficients &c, const ContactOf<Real> &contact)
+  template <class Number, class Real>
+  EEPA_FUNCTION static ScaleOf<Real> scale_of(const CoefficientsOf<Number> &c,
+                                              const ContactOf<Real> &contact)
   {
     ScaleOf<Real> scale = contact_scale(c, contact.size);
     if constexpr (NormalLaw::reads_effective_radius)
@@ -98,13 +102,14 @@ template <class NormalLaw, class RollingLaw, class TwistingLaw = TwistingNone> s
 
   /// Forces of a contact and its state after this step.
   ///
+  /// \tparam Number  double: the coefficients of all contacts; or Real: each contact has its own
   /// \param c  coefficients of its pair of types
   /// \param contact  geometry and motion, overlap > 0
   /// \param time_step  over which the springs are wound [time]; 0 in a set-up call, after which
   ///        the caller must discard the returned history
   /// \param[in,out] history  the state before and after
-  template <class Real>
-  EEPA_FUNCTION static ResponseOf<Real> evaluate(const Coefficients &c,
+  template <class Number, class Real>
+  EEPA_FUNCTION static ResponseOf<Real> evaluate(const CoefficientsOf<Number> &c,
                                                  const ContactOf<Real> &contact, double time_step,
                                                  HistoryOf<Real> &history)
   {

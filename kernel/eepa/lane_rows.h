@@ -65,7 +65,8 @@ EEPA_FUNCTION Vector3<Lanes> gather_rows(const LanePointers<const double> &at)
 }
 
 /// The rows of 4 numbers that the lanes point at.
-EEPA_FUNCTION std::array<Lanes, 4> gather_rows_of_4(const LanePointers<double> &at)
+template <class T>
+EEPA_FUNCTION std::array<Lanes, 4> gather_rows_of_4(const LanePointers<T> &at)
 {
 #ifdef __AVX__
   if constexpr (Lanes::size() == 4) {

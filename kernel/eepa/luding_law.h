@@ -26,9 +26,10 @@ struct LudingLaw {
   using Exponent = UnitExponent;
 
   /// \copydoc PlateauLaw::force
-  template <class Real>
-  EEPA_FUNCTION static NormalForceOf<Real> force(const Coefficients &c, const ScaleOf<Real> &scale,
-                                                 const Real &overlap, const Real &max_overlap)
+  template <class Number, class Real>
+  EEPA_FUNCTION static NormalForceOf<Real> force(const CoefficientsOf<Number> &c,
+                                                 const ScaleOf<Real> &scale, const Real &overlap,
+                                                 const Real &max_overlap)
   {
     using std::sqrt;
     NormalForceOf<Real> result;
@@ -45,7 +46,7 @@ struct LudingLaw {
     const Real rounding = 1e-14 * s * (c.k2 + c.k_adh) * overlap;
     const auto adheres = !loads && spring <= rounding - pull;
     if (any(adheres)) {
-      const double reach = 4.0 * (c.k1 + c.k_adh) / (c.k2 - c.k1);
+      const Number reach = 4.0 * (c.k1 + c.k_adh) / (c.k2 - c.k1);
       spring = select(adheres, -pull, spring);
       const Real meets = 0.5 * (overlap + sqrt(overlap * (overlap + reach * limit)));
       remembered = select(adheres, meets, remembered);
@@ -61,8 +62,9 @@ struct LudingLaw {
   }
 
   /// delta*, from which on a contact is elastic [length]
-  template <class Real>
-  EEPA_FUNCTION static Real limit_overlap(const Coefficients &c, const ScaleOf<Real> &scale)
+  template <class Number, class Real>
+  EEPA_FUNCTION static Real limit_overlap(const CoefficientsOf<Number> &c,
+                                          const ScaleOf<Real> &scale)
   {
     return 2.0 * c.depth * (c.k2 / (c.k2 - c.k1)) * scale.effective_radius;
   }

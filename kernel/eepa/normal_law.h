@@ -38,8 +38,9 @@ using NormalForce = NormalForceOf<double>;
 struct UnitExponent {
   static constexpr bool is_unit = true;
   /// p(delta) such that s k p(delta) is the spring force of a contact of scale s
-  template <class Real>
-  EEPA_FUNCTION static Real power(const Real &overlap, const Coefficients &, const ScaleOf<Real> &)
+  template <class Number, class Real>
+  EEPA_FUNCTION static Real power(const Real &overlap, const CoefficientsOf<Number> &,
+                                  const ScaleOf<Real> &)
   {
     return overlap;
   }
@@ -53,8 +54,8 @@ struct UnitExponent {
 /// Power policy of a general exponent n: p(delta) = delta (delta/s)^(n-1).
 struct GeneralExponent {
   static constexpr bool is_unit = false;
-  template <class Real>
-  EEPA_FUNCTION static Real power(const Real &overlap, const Coefficients &c,
+  template <class Number, class Real>
+  EEPA_FUNCTION static Real power(const Real &overlap, const CoefficientsOf<Number> &c,
                                   const ScaleOf<Real> &scale)
   {
     return overlap * eepa::pow<Real>(overlap * scale.inverse_size, c.exponent - 1.0);
@@ -64,8 +65,8 @@ struct GeneralExponent {
     return overlap * std::pow(fraction, 1.0 / c.exponent);
   }
   /// dp/d(delta); not needed for exponent 1, where it is 1
-  template <class Real>
-  EEPA_FUNCTION static Real slope(const Real &overlap, const Coefficients &c,
+  template <class Number, class Real>
+  EEPA_FUNCTION static Real slope(const Real &overlap, const CoefficientsOf<Number> &c,
                                   const ScaleOf<Real> &scale)
   {
     return c.exponent * eepa::pow<Real>(overlap * scale.inverse_size, c.exponent - 1.0);
@@ -87,9 +88,10 @@ struct PlateauLaw {
 
   /// \param overlap  delta > 0 [length]
   /// \param max_overlap  remembered delta_max, 0 for a virgin contact [length]
-  template <class Real>
-  EEPA_FUNCTION static NormalForceOf<Real> force(const Coefficients &c, const ScaleOf<Real> &scale,
-                                                 const Real &overlap, const Real &max_overlap)
+  template <class Number, class Real>
+  EEPA_FUNCTION static NormalForceOf<Real> force(const CoefficientsOf<Number> &c,
+                                                 const ScaleOf<Real> &scale, const Real &overlap,
+                                                 const Real &max_overlap)
   {
     NormalForceOf<Real> result;
     // the comparison, not the arithmetic below, decides that a contact at its largest overlap loads
@@ -179,9 +181,10 @@ template <class ExponentPolicy> struct LinearLaw {
   using Exponent = ExponentPolicy;
 
   /// \copydoc PlateauLaw::force
-  template <class Real>
-  EEPA_FUNCTION static NormalForceOf<Real> force(const Coefficients &c, const ScaleOf<Real> &scale,
-                                                 const Real &overlap, const Real &max_overlap)
+  template <class Number, class Real>
+  EEPA_FUNCTION static NormalForceOf<Real> force(const CoefficientsOf<Number> &c,
+                                                 const ScaleOf<Real> &scale, const Real &overlap,
+                                                 const Real &max_overlap)
   {
     NormalForceOf<Real> result;
     const auto virgin = overlap >= max_overlap;

@@ -49,8 +49,8 @@ struct RollingConstant {
     return 0.4 * effective_radius * effective_radius * root_mass_stiffness;
   }
   /// The torque of fast rolling [force length]
-  template <class Real>
-  EEPA_FUNCTION static Real bound(const Coefficients &c, const Real &effective_radius,
+  template <class Number, class Real>
+  EEPA_FUNCTION static Real bound(const CoefficientsOf<Number> &c, const Real &effective_radius,
                                   const Real &hysteretic)
   {
     return c.mu_r * hysteretic * effective_radius;
@@ -58,9 +58,9 @@ struct RollingConstant {
 
   /// \param hysteretic  |f_hys| [force]
   /// \param root_mass_stiffness  sqrt(m* k) [mass/time]
-  template <class Real>
+  template <class Number, class Real>
   EEPA_FUNCTION static Vector3<Real>
-  torque(const Coefficients &c, const ScaleOf<Real> &, const ContactOf<Real> &contact,
+  torque(const CoefficientsOf<Number> &c, const ScaleOf<Real> &, const ContactOf<Real> &contact,
          const Real &hysteretic, const Real &root_mass_stiffness, double, Vector3<Real> &)
   {
     using std::sqrt;
@@ -94,20 +94,21 @@ struct RollingSds {
     return rolling_velocity(contact) + dot(contact.angular_velocity, contact.normal) * contact.turn;
   }
   /// B of the pseudo-force, gr of this contact [mass/time]
-  template <class Real>
-  EEPA_FUNCTION static Real dashpot(const Coefficients &c, const ScaleOf<Real> &scale)
+  template <class Number, class Real>
+  EEPA_FUNCTION static Real dashpot(const CoefficientsOf<Number> &c, const ScaleOf<Real> &scale)
   {
     return scale.force() * c.rolling_viscous;
   }
   /// Largest |g| [force]
-  template <class Real>
-  EEPA_FUNCTION static Real bound(const Coefficients &c, const Real &hysteretic)
+  template <class Number, class Real>
+  EEPA_FUNCTION static Real bound(const CoefficientsOf<Number> &c, const Real &hysteretic)
   {
     return c.mu_r * hysteretic;
   }
 
-  template <class Real>
-  EEPA_FUNCTION static Vector3<Real> torque(const Coefficients &c, const ScaleOf<Real> &scale,
+  template <class Number, class Real>
+  EEPA_FUNCTION static Vector3<Real> torque(const CoefficientsOf<Number> &c,
+                                            const ScaleOf<Real> &scale,
                                             const ContactOf<Real> &contact, const Real &hysteretic,
                                             const Real &, double time_step, Vector3<Real> &spring)
   {

@@ -46,8 +46,8 @@ struct TwistingMarshall {
     return sqrt(0.5 * effective_radius * eepa::max<Real>(overlap, 0.0));
   }
   /// Largest |g|: the friction bound times 2/3 a over the arm [force]
-  template <class Real>
-  EEPA_FUNCTION static Real bound(const Coefficients &c, const Real &friction_bound)
+  template <class Number, class Real>
+  EEPA_FUNCTION static Real bound(const CoefficientsOf<Number> &c, const Real &friction_bound)
   {
     return c.twisting_share * friction_bound;
   }
@@ -56,8 +56,8 @@ struct TwistingMarshall {
   /// \param stiffness, inverse_stiffness  k_t of the contact and 1/k_t (0 where k_t = 0)
   /// \param viscous  B_t of the contact
   /// \param[in,out] spring  zeta [length]
-  template <class Real>
-  EEPA_FUNCTION static Real torque(const Coefficients &c, const ContactOf<Real> &contact,
+  template <class Number, class Real>
+  EEPA_FUNCTION static Real torque(const CoefficientsOf<Number> &c, const ContactOf<Real> &contact,
                                    const Real &stiffness, const Real &inverse_stiffness,
                                    const Real &viscous, const Real &friction_bound,
                                    double time_step, Real &spring)

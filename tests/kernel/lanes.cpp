@@ -3,6 +3,7 @@
 // Contacts evaluated side by side have the results of single ones: every lane gives the bits of a
 // double.
 
+#include <eepa/coefficient_rows.h>
 #include <eepa/dispatch.h>
 
 #include <gtest/gtest.h>
@@ -120,38 +121,65 @@ void expect_bits(const Vector3<Lanes> &lanes, int l, const Vec3 &one, const char
   for (int k = 0; k < 3; k++) expect_bits(lanes[k][l], one[k], what);
 }
 
+/// Parameters of a case.
+Parameters draw_parameters(Generator &generator, const Case &given)
+{
+  Parameters p;
+  p.k1 = generator.between(1e3, 1e4);
+  p.k2 = (given.settings.law == Law::plateau ? 2.0 : generator.between(1.0, 5.0)) * p.k1;
+  p.k_adh = generator.between(0.0, 1.0) * p.k1;
+  p.f0 = -generator.between(0.0, 5.0);
+  p.mu = generator.between(0.0, 1.0);
+  p.kt_given = true;
+  p.kt = generator.between(0.0, 1.0) * p.k1;
+  p.damping = given.damping;
+  p.restitution = generator.between(0.0, 1.0);
+  p.viscous_normal = generator.between(0.0, 10.0);
+  p.viscous_tangential = generator.between(0.0, 10.0);
+  p.rolling = given.rolling;
+  p.twisting = given.twisting;
+  p.mu_r = generator.between(0.0, 0.2);
+  p.kr = generator.between(0.0, 1e3);
+  p.rolling_viscous = generator.between(0.0, 1.0);
+  if (given.settings.law == Law::luding) p.depth = generator.between(0.01, 0.2);
+  p.bound = given.bound;
+  return p;
+}
+
+/// Parameters of one of several pairs of types. They also differ in what each pair chooses.
+Parameters draw_other_choices(Generator &generator, const Case &given)
+{
+  const auto chance = [&generator](double share) { return generator.between(0.0, 1.0) < share; };
+  Parameters p = draw_parameters(generator, given);
+  p.damping = chance(0.5) ? Damping::restitution : Damping::viscous;
+  p.bound = chance(0.5) ? FrictionBound::adhesive : FrictionBound::contact;
+  if (chance(0.2)) p.rolling = RollingModel::none;
+  if (chance(0.2)) p.twisting = TwistingModel::none;
+  return p;
+}
+
 class SideBySide : public testing::TestWithParam<Case> {};
 
-TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
+/// Compares lanes with single contacts.
+/// \param same  whether all lanes have the same coefficients; else each has its own
+void compare_lanes(const Case &given, bool same)
 {
-  const Case &given = GetParam();
   with_law(given.settings, given.rolling, given.twisting, [&](auto law) {
     using ContactLaw = decltype(law);
     Generator generator;
     int branches[4] = {0, 0, 0, 0}, sliding = 0, sticking = 0;
     for (int round = 0; round < 200; round++) {
-      Parameters p;
-      p.k1 = generator.between(1e3, 1e4);
-      p.k2 = (given.settings.law == Law::plateau ? 2.0 : generator.between(1.0, 5.0)) * p.k1;
-      p.k_adh = generator.between(0.0, 1.0) * p.k1;
-      p.f0 = -generator.between(0.0, 5.0);
-      p.mu = generator.between(0.0, 1.0);
-      p.kt_given = true;
-      p.kt = generator.between(0.0, 1.0) * p.k1;
-      p.damping = given.damping;
-      p.restitution = generator.between(0.0, 1.0);
-      p.viscous_normal = generator.between(0.0, 10.0);
-      p.viscous_tangential = generator.between(0.0, 10.0);
-      p.rolling = given.rolling;
-      p.twisting = given.twisting;
-      p.mu_r = generator.between(0.0, 0.2);
-      p.kr = generator.between(0.0, 1e3);
-      p.rolling_viscous = generator.between(0.0, 1.0);
-      if (given.settings.law == Law::luding) p.depth = generator.between(0.01, 0.2);
-      p.bound = given.bound;
       LawSettings settings = given.settings;
       settings.limit_damping = round % 2;
-      const Coefficients c = resolve(p, settings);
+      std::vector<Coefficients> c(width);
+      std::vector<CoefficientRows> rows;
+      LanePointers<const CoefficientRows> of_lane;
+      const Parameters all = draw_parameters(generator, given);
+      for (Coefficients &own : c) {
+        own = resolve(same ? all : draw_other_choices(generator, given), settings);
+        rows.emplace_back(own);
+      }
+      for (int l = 0; l < width; l++) of_lane[l] = &rows[l];
 
       std::vector<History> one(width);
       for (auto &history : one) {
@@ -173,11 +201,13 @@ TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
         for (auto &contact : contacts) contact = generator.contact();
         const ContactOf<Lanes> together = side_by_side(contacts);
         HistoryOf<Lanes> history = load_history<typename ContactLaw::Layout>(at);
-        const auto response = ContactLaw::evaluate(c, together, 1e-3, history);
+        const auto response = same
+            ? ContactLaw::evaluate(c[0], together, 1e-3, history)
+            : ContactLaw::evaluate(gather_coefficients(of_lane, c[0]), together, 1e-3, history);
         store_history<typename ContactLaw::Layout>(history, at);
         const Wrench<Lanes> wrench = ContactLaw::wrench(response, together);
         for (int l = 0; l < width; l++) {
-          const Response alone = ContactLaw::evaluate(c, contacts[l], 1e-3, one[l]);
+          const Response alone = ContactLaw::evaluate(c[l], contacts[l], 1e-3, one[l]);
           expect_bits(response.normal_force[l], alone.normal_force, "normal force");
           expect_bits(response.hysteretic_force[l], alone.hysteretic_force, "f_hys");
           expect_bits(response.friction_bound[l], alone.friction_bound, "bound");
@@ -214,6 +244,16 @@ TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
     EXPECT_GT(sliding, 50);
     EXPECT_GT(sticking, 50);
   });
+}
+
+TEST_P(SideBySide, EveryLaneHasTheBitsOfOneContact)
+{
+  compare_lanes(GetParam(), true);
+}
+
+TEST_P(SideBySide, EveryLaneHasItsOwnCoefficients)
+{
+  compare_lanes(GetParam(), false);
 }
 
 LawSettings settings(Law law, double exponent, bool scaled)
@@ -255,6 +295,30 @@ const Case cases[] = {
 INSTANTIATE_TEST_SUITE_P(Laws, SideBySide, testing::ValuesIn(cases), [](const auto &info) {
   return std::string(info.param.name);
 });
+
+// Each number comes from the row of its lane, and from nowhere else.
+TEST(CoefficientRows, AreGatheredLaneByLane)
+{
+  std::vector<Coefficients> c(width);
+  double next = 1.0;
+  for (Coefficients &own : c)
+    for (const auto member : detail::row_members<double>) own.*member = next++;
+  c[0].exponent = 1.5;
+  c[0].inverse_reference_diameter = 0.25;
+  c[0].limit_damping = true;
+  const std::vector<CoefficientRows> rows(c.begin(), c.end());
+  LanePointers<const CoefficientRows> of_lane;
+  for (int l = 0; l < width; l++) of_lane[l] = &rows[width - 1 - l];
+  const CoefficientsOf<Lanes> gathered = gather_coefficients(of_lane, c[0]);
+  for (std::size_t k = 0; k < detail::row_members<double>.size(); k++)
+    for (int l = 0; l < width; l++)
+      EXPECT_EQ((gathered.*detail::row_members<Lanes>[k])[l],
+                c[width - 1 - l].*detail::row_members<double>[k])
+          << k << ' ' << l;
+  EXPECT_EQ(gathered.exponent, 1.5);
+  EXPECT_EQ(gathered.inverse_reference_diameter, 0.25);
+  EXPECT_TRUE(gathered.limit_damping);
+}
 
 }    // namespace lanes_test
 

@@ -293,29 +293,45 @@ TEST(Types, EachPairHasItsOwnCoefficients)
   EXPECT_NEAR(p[4].f.y(), -1e4 * 0.01, 1e-8);
 }
 
-// Contacts wait in a queue for others with the same coefficients. Five types whose frictions differ
-// in the twelfth digit have fifteen queues. In this packing ten of them are filled three times and
-// left with a rest. The particles move as those of one type, which need no queue.
-TEST(Types, ManyTypesMoveAsOneOfNearlyTheSameCoefficients)
+/// Runs a packing of particles of one type and of five.
+/// \param line  the coefficients of a type, by its number; 0 is the only one of one type
+/// \return how far apart particles are after it
+template <class Line> double difference_of_types(const Line &line, const std::string &newton)
 {
   Packing packing;
   packing.types = 5;
   packing.side = 7;
   packing.polydisperse = true;
   const std::string style = "pair_style gran/eepa linear\n";
-  const std::string stiffness = " 1e4 2e4 5e3 -1 ",
-                    more = " restitution 0.8 rolling constant 0.1\n";
   std::string many = style;
   for (int type = 1; type <= packing.types; type++)
-    many += "pair_coeff " + std::to_string(type) + " " + std::to_string(type) + stiffness +
-        exact(0.5 + 1e-12 * type) + more;
+    many += "pair_coeff " + std::to_string(type) + " " + std::to_string(type) + line(type) + "\n";
+  return difference(run_packing(packing, style + "pair_coeff * *" + line(0), 100, newton),
+                    run_packing(packing, many, 100, newton));
+}
+
+// Five types whose frictions differ in the twelfth digit have fifteen sets of coefficients. The
+// particles move as those of one type.
+TEST(Types, ManyTypesMoveAsOneOfNearlyTheSameCoefficients)
+{
+  const auto line = [](int type) {
+    return " 1e4 2e4 5e3 -1 " + exact(0.5 + 1e-12 * type) + " restitution 0.8 rolling constant 0.1";
+  };
   for (const char *newton : {"on", "off"}) {
-    const auto of_one =
-        run_packing(packing, style + "pair_coeff * *" + stiffness + "0.5" + more, 100, newton);
-    const auto of_many = run_packing(packing, many, 100, newton);
-    EXPECT_LT(difference(of_one, of_many), 1e-8) << newton;
-    EXPECT_GT(difference(of_one, of_many), 0.0) << "the types had one queue";
+    EXPECT_LT(difference_of_types(line, newton), 1e-8) << newton;
+    EXPECT_GT(difference_of_types(line, newton), 0.0) << "the types had the same coefficients";
   }
+}
+
+// Types do not change the order in which forces are added. Friction that no contact reaches makes
+// the coefficients different and the forces the same: not one bit differs.
+TEST(Types, ManyTypesHaveTheBitsOfOneWhereTheirForcesAreTheSame)
+{
+  const auto line = [](int type) {
+    return " 1e4 1e4 0 0 " + exact(1e6 * (1 + type)) + " restitution 0.8";
+  };
+  for (const char *newton : {"on", "off"})
+    EXPECT_EQ(difference_of_types(line, newton), 0.0) << newton;
 }
 
 // Two particles that touch through two images have one history, which LAMMPS keeps by ID.
