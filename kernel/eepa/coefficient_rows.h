@@ -57,6 +57,9 @@ class CoefficientRows {
 
  private:
   static_assert(detail::row_members<double>.size() % 4 == 0, "rows are full");
+  static_assert(detail::row_members<double>.size() * sizeof(double) ==
+                    offsetof(Coefficients, loading_loss),
+                "every Number of CoefficientsOf has its place in a row");
   alignas(32) double numbers_[4 * rows];
 };
 
