@@ -39,33 +39,101 @@ void expect_plane(const MeshShape &shape, int positions, unsigned seed)
 
 TEST(Plate, IsAPlaneWhateverItsTriangles)
 {
-  expect_plane(plate(4, 3, 1, 1).shape(), 10000, 1);
-  expect_plane(plate(4, 3, 10, 10).shape(), 10000, 2);
-  expect_plane(plate(4, 3, 100, 100).shape(), 1000, 3);
+  expect_plane(plate(4, 3, 1, 1).shape(), 100000, 1);
+  expect_plane(plate(4, 3, 10, 10).shape(), 100000, 2);
+  expect_plane(plate(4, 3, 100, 100).shape(), 2000, 3);
   Random random(5);
-  expect_plane(plate(4, 3, 12, 9, &random).shape(), 10000, 4);
+  expect_plane(plate(4, 3, 12, 9, &random).shape(), 100000, 4);
 }
 
-TEST(Box, HasAContactForEachFaceFromInsideAndOneFromOutside)
+/// A fan of triangles around a point of a plate of 4 x 3, which become slivers.
+Soup fan(int n, const Vec3 &hub)
 {
-  const MeshShape shape = box(Vec3(0, 0, 0), Vec3(4, 5, 6)).shape();
-  EXPECT_EQ(shape.mesh().count(), 12);
-  EXPECT_TRUE(shape.mesh().findings.empty());
-  EXPECT_EQ(contacts(shape, Vec3(2, 2, 3), 0.5).size(), 0u);
-  EXPECT_EQ(contacts(shape, Vec3(2, 2, 0.4), 0.5).size(), 1u);
-  EXPECT_EQ(contacts(shape, Vec3(2, 0.45, 0.4), 0.5).size(), 2u);
-  EXPECT_EQ(contacts(shape, Vec3(3.6, 0.45, 0.4), 0.5).size(), 3u);
-  EXPECT_EQ(contacts(shape, Vec3(2, 2, -0.4), 0.5).size(), 1u);
-  const auto edge = contacts(shape, Vec3(2, -0.3, -0.3), 0.5);
-  ASSERT_EQ(edge.size(), 1u);
-  EXPECT_NEAR(edge[0].distance, 0.3 * std::sqrt(2.0), 1e-15);
-  EXPECT_LE(largest_difference(edge[0].normal, Vec3(0, -1, -1).normalized()), 1e-15);
-  EXPECT_NEAR(edge[0].curvature, 1.0 / edge[0].distance, 1e-15);
-  EXPECT_LE(largest_difference(edge[0].straight.cwiseAbs(), Vec3(1, 0, 0)), 1e-15);
-  const auto corner = contacts(shape, Vec3(-0.2, -0.2, -0.2), 0.5);
-  ASSERT_EQ(corner.size(), 1u);
-  EXPECT_NEAR(corner[0].distance, 0.2 * std::sqrt(3.0), 1e-15);
-  EXPECT_EQ(corner[0].straight, Vec3(0, 0, 0));
+  std::vector<Vec3> rim;
+  const Vec3 corners[] = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(4, 3, 0), Vec3(0, 3, 0)};
+  for (int side = 0; side < 4; ++side)
+    for (int i = 0; i < n; ++i)
+      rim.push_back(corners[side] + (corners[(side + 1) % 4] - corners[side]) * i / n);
+  Soup s;
+  for (std::size_t i = 0; i < rim.size(); ++i) s.add(hub, rim[i], rim[(i + 1) % rim.size()]);
+  return s;
+}
+
+TEST(Plate, OfAFanOfSlivers)
+{
+  expect_plane(fan(1, Vec3(2, 1.5, 0)).shape(), 30000, 6);
+  expect_plane(fan(100, Vec3(1.1, 0.7, 0)).shape(), 3000, 7);
+  expect_plane(fan(3000, Vec3(1.1, 0.7, 0)).shape(), 200, 8);
+}
+
+TEST(Plate, WithCornersOnTheEdgesOfOtherTriangles)
+{
+  // neighbouring strips that are cut at places of their own, random or a multiple of each other's
+  for (const bool anywhere : {false, true}) {
+    Random random(9);
+    Soup s;
+    for (int strip = 0; strip < 6; ++strip) {
+      Random own(10 + strip);
+      s.append(plate(4, 0.5, anywhere ? 3 + strip : 1 << (strip % 3), 1, anywhere ? &own : nullptr)
+                   .moved([&](const Vec3 &p) {
+                     return Vec3(p[0], p[1] + 0.5 * strip, 0);
+                   }));
+    }
+    const MeshShape shape = s.shape();
+    EXPECT_EQ(shape.mesh().findings[0].kind, MeshDefect::open_edge);
+    expect_plane(shape, 100000, 11);
+  }
+}
+
+TEST(Plate, AnyWayUpAndInAnyPlace)
+{
+  Random random(12);
+  const Soup flat = plate(4, 3, 7, 6, &random);
+  Soup slivers = fan(100, Vec3(1.1, 0.7, 0));
+  for (int i = 0; i < 6; ++i) {
+    const Vec3 axis = random.direction();
+    const double angle = random.between(0, 360);
+    const MeshTransformation place = {1.0, axis, angle, random.vector(10.0)};
+    const PointTransformation transform(place);
+    const bool narrow = i % 2;
+    const MeshShape shape(TriangleMesh((narrow ? slivers : flat).stl(), place));
+    const Vec3 normal = transform.rotate(Vec3(0, 0, 1));
+    // corners are off by the last digit of their coordinates, and the normal of a narrow triangle by that
+    // over its width
+    const double rounding = 2e-14, turned = narrow ? 2e-13 : 1e-14;
+    for (int k = 0; k < 20000; ++k) {
+      const double x = random.between(0, 4), y = random.between(0, 3);
+      const double z = random.between(-0.499, 0.499);
+      const auto found = contacts(shape, transform(Vec3(x, y, z)), 0.5);
+      ASSERT_EQ(found.size(), 1u) << x << " " << y << " " << z;
+      ASSERT_NEAR(found[0].distance, std::fabs(z), rounding);
+      const Vec3 side = z < 0 ? Vec3(-normal) : normal;
+      if (std::fabs(z) > 0.01) { ASSERT_LE(largest_difference(found[0].normal, side), turned); }
+    }
+  }
+}
+
+TEST(Plate, OfAFileInSinglePrecisionIsOneContactToo)
+{
+  // corners off the plane by the rounding of the file, narrow triangles by degrees
+  Random random(13);
+  for (int i = 0; i < 10; ++i) {
+    const Vec3 axis = random.direction();
+    const PointTransformation transform({1.0, axis, random.between(0, 360), random.vector(1)});
+    Soup s = i % 2 ? fan(100, Vec3(1.1, 0.7, 0)) : plate(4, 3, 40, 30, &random);
+    s = s.moved([&](const Vec3 &p) {
+      const Vec3 q = transform(p);
+      return Vec3(static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]));
+    });
+    const MeshShape shape = s.shape();
+    for (int k = 0; k < 10000; ++k) {
+      const double x = random.between(0, 4), y = random.between(0, 3);
+      const double z = random.between(-0.499, 0.499);
+      const auto found = contacts(shape, transform(Vec3(x, y, z)), 0.5);
+      ASSERT_EQ(found.size(), 1u) << i << " " << x << " " << y << " " << z;
+      ASSERT_NEAR(found[0].distance, std::fabs(z), 1e-6);
+    }
+  }
 }
 
 }    // namespace plates_test

@@ -131,6 +131,35 @@ inline Soup box(const Vec3 &low, const Vec3 &high)
   return s;
 }
 
+/// The lateral surface of a regular prism about z, of which the corners are on a circle; normals outwards.
+/// Each facet is cut once along its height or more often.
+inline Soup prism(int facets, double radius, double low, double high, int layers = 1)
+{
+  const auto corner = [&](int i, int layer) {
+    const double angle = 2.0 * M_PI * (i % facets) / facets;
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle),
+                low + (high - low) * layer / layers);
+  };
+  Soup s;
+  for (int i = 0; i < facets; ++i)
+    for (int j = 0; j < layers; ++j)
+      s.add_quad(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1));
+  return s;
+}
+
+/// A profile in the plane of x and z, drawn out along y.
+inline Soup drawn_out(const std::vector<Vec3> &profile, double low, double high, int cuts)
+{
+  Soup s;
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i)
+    for (int j = 0; j < cuts; ++j) {
+      const Vec3 from(0, low + (high - low) * j / cuts, 0);
+      const Vec3 to(0, low + (high - low) * (j + 1) / cuts, 0);
+      s.add_quad(profile[i] + from, profile[i] + to, profile[i + 1] + to, profile[i + 1] + from);
+    }
+  return s;
+}
+
 /// The contacts of a sphere, candidates from collect() and all else as a driver does it.
 inline std::vector<SurfacePoint> contacts(const MeshShape &shape, const Vec3 &centre, double radius)
 {

@@ -24,8 +24,10 @@ std::string MeshFinding::text() const
       text += " to more than two triangles";
       break;
     case MeshDefect::opposite:
-      text += one ? " edge lies" : " edges lie";
-      text += " between triangles of opposite orientation (flipped normals), which does no harm";
+      text += one ? " triangle is" : " triangles are";
+      text += " the other way round than those next to ";
+      text += one ? "it" : "them";
+      text += " (flipped normals), which does no harm";
       break;
     case MeshDefect::stored_normal:
       text += one ? " triangle has" : " triangles have";

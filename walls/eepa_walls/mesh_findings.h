@@ -13,7 +13,7 @@ enum class MeshDefect {
   duplicate,         ///< triangles with the corners of an earlier one: dropped
   open_edge,         ///< edges of one triangle only: a crack, or the rim of an open surface
   branching_edge,    ///< edges of more than two triangles
-  opposite,          ///< edges between triangles of which one is the wrong way round
+  opposite,          ///< triangles that are the other way round than most of those around them
   stored_normal      ///< triangles with a stored normal against the order of their corners
 };
 

@@ -88,7 +88,13 @@ SurfacePoint MeshShape::nearest(int face, const Vec3 &centre) const
 bool MeshShape::continues(int face, const SurfacePoint &now, const Vec3 &centre) const
 {
   if (face == now.face) return true;
-  return has_face(face) && dot(nearest(face, centre).normal, now.normal) >= continues_cosine_;
+  if (!has_face(face)) return false;
+  const TrianglePoint at = closest_point(centre, mesh_.triangle(face));
+  if (dot(surface_point(mesh_, face, at, centre).normal, now.normal) >= continues_cosine_)
+    return true;
+  // the foot may have left the old triangle by a second edge
+  const double cosine = dot(mesh_.normals[face], now.normal);
+  return (at.height < 0.0 ? -cosine : cosine) >= continues_cosine_;
 }
 
 bool MeshShape::is_between(const Vec3 &before, const Vec3 &now) const

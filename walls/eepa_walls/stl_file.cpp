@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 namespace eepa {
 
@@ -241,12 +243,16 @@ namespace {
 
 std::vector<char> read_bytes(const std::string &file)
 {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
-  if (size < 0) refuse(file, "the file can not be opened");
-  std::vector<char> bytes(static_cast<std::size_t>(size));
-  in.seekg(0);
-  if (!in.read(bytes.data(), size)) refuse(file, "the file can not be read");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) refuse(file, "the file can not be opened");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    refuse(file, "the file can not be read: it is a folder or a device");
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) refuse(file, "the file can not be read: " + error.message());
+  std::vector<char> bytes(size);
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(size)))
+    refuse(file, "the file can not be read to its end");
   return bytes;
 }
 

@@ -86,6 +86,7 @@ TriangleMesh::TriangleMesh(const StlTriangles &triangles, const MeshTransformati
   drop_unused_vertices();
   measure();
   find_edges();
+  check_orientations();
   check_stored_normals(triangles, transform);
 }
 
@@ -264,10 +265,7 @@ void TriangleMesh::find_edges()
     } else {
       const int other = first[1].place;
       edge.second = other / 3;
-      const bool same_direction =
-          corners[edge.first][first->place % 3] == corners[edge.second][other % 3];
-      if (same_direction) note(MeshDefect::opposite, edge.first);
-      measure_edge(edge, same_direction);
+      measure_edge(edge, corners[edge.first][first->place % 3] == corners[edge.second][other % 3]);
     }
     edges.push_back(edge);
   });
@@ -287,6 +285,41 @@ void TriangleMesh::measure_edge(Edge &edge, bool same_direction)
     rounding += tolerance * length / (2.0 * areas[t]);
   }
   edge.rounding = static_cast<float>(std::min(rounding, M_PI));
+}
+
+/// Triangles that are the other way round than most of those with which they hang together.
+void TriangleMesh::check_orientations()
+{
+  enum : char { unknown, one_way, other_way };
+  std::vector<char> ways(corners.size(), unknown);
+  std::vector<int> part;    // triangles that hang together
+  for (int start = 0; start < count(); ++start) {
+    if (ways[start] != unknown) continue;
+    part.assign(1, start);
+    ways[start] = one_way;
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const int t = part[i];
+      others += ways[t] == other_way;
+      for (int k = 0; k < 3; ++k) {
+        const int number = edges_of[t][k];
+        const Edge &edge = edges[number];
+        if (edge.count != 2) continue;
+        const int neighbour = edge.first == t ? edge.second : edge.first;
+        if (ways[neighbour] != unknown) continue;
+        int m = 0;
+        while (edges_of[neighbour][m] != number) ++m;
+        // neighbours that are the same way round pass their edge in opposite directions
+        const bool same = corners[t][k] != corners[neighbour][m];
+        ways[neighbour] = same == (ways[t] == one_way) ? one_way : other_way;
+        part.push_back(neighbour);
+      }
+    }
+    const char wrong = 2 * others <= part.size() ? other_way : one_way;
+    for (const int t : part) ways[t] = ways[t] == wrong ? other_way : one_way;
+  }
+  for (int t = 0; t < count(); ++t)
+    if (ways[t] == other_way) note(MeshDefect::opposite, t);
 }
 
 void TriangleMesh::check_stored_normals(const StlTriangles &triangles,

@@ -75,6 +75,7 @@ class TriangleMesh {
   void measure();
   void find_edges();
   void measure_edge(Edge &edge, bool same_direction);
+  void check_orientations();
   void check_stored_normals(const StlTriangles &triangles, const PointTransformation &transform);
   void note(MeshDefect kind, int triangle);
 };
