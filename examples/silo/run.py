@@ -78,6 +78,7 @@ def report(launcher: running.Launcher, runs: Sequence[Run], what: str) -> None:
     groups: Dict[str, List[Run]] = {}
     for run in runs:
         groups.setdefault(run.name.rsplit("_seed", 1)[0], []).append(run)
+    published = any(run.variables["n"] == 100000 for run in runs)
     rows = []
     for name, group in groups.items():
         curves = [tables.read_table(launcher.folder(run) / "discharge.csv") for run in group]
@@ -91,11 +92,11 @@ def report(launcher: running.Launcher, runs: Sequence[Run], what: str) -> None:
         row = [name, str(len(group)), tables.with_error(rates, ".4g"), f"{np.mean([f.error for f in found]):.2g}",
                tables.with_error([1e3 * m for m in flowing], ".4g"), f"{np.mean(flowing) / law:.3f}",
                f"{sum(f.blocked for f in found)} of {len(found)}"]
-        if what == "beads":
+        if published:
             row += [f"{number:.0f}" for number in discharge.left_at(curves[0].time, curves[0].inside)]
         rows.append(row + [f"{np.mean([launcher.seconds(run) for run in group]):.0f}"])
     head = ["case", "seeds", "particles/s", "error in a run", "g/s", "over Beverloo", "blocked"]
-    if what == "beads":
+    if published:
         head += [f"left at {t:g} s" for t in discharge.TIMES]
         for code, left in discharge.LEFT.items():
             rows.append([f"published: {code}", "", "", "", "", "", "", *map(str, left), ""])
@@ -122,10 +123,11 @@ def draw(launcher: running.Launcher, runs: Sequence[Run], what: str) -> None:
     folder = launcher.folder(runs[0])
     walls = [1e-3 * meshes.read_stl(Path(runs[0].variables["stl"]) / "silo.stl")]
     shots = list(tables.read_dump(folder / "silo.dump"))
-    for axis, shot in zip(axes[1:], (shots[0], shots[len(shots) // 2])):
-        speed = -shot.columns["vz"]
-        circles = draw_section(axis, shot.positions(), shot.columns["radius"], walls, speed,
-                               limits=(0.0, float(np.percentile(speed, 98)) or 1.0))
+    middle = shots[len(shots) // 2]
+    fastest = float(np.percentile(-middle.columns["vz"], 98))
+    for axis, shot in zip(axes[1:], (shots[0], middle)):
+        circles = draw_section(axis, shot.positions(), shot.columns["radius"], walls, -shot.columns["vz"],
+                               limits=(0.0, max(fastest, 1e-3)))
     figure.colorbar(circles, ax=axes[2], label="speed downwards (m/s)", shrink=0.8)
     save(figure, launcher.out / f"{what}.png")
 
