@@ -163,7 +163,8 @@ TEST(Faces, AreTriangles)
   EXPECT_TRUE(shape.has_face(0) && shape.has_face(11));
   EXPECT_FALSE(shape.has_face(-1) || shape.has_face(12));
   // the number that tells meshes apart in restart files
-  EXPECT_EQ(shape.check(), box(Vec3(0, 0, 0), Vec3(6, 4, 5)).shape().check());
+  EXPECT_EQ(shape.check(), box(Vec3(0, 0, 0), Vec3(3, 4, 5)).shape().check());
+  EXPECT_NE(shape.check(), box(Vec3(0, 0, 0), Vec3(6, 4, 5)).shape().check());
   Soup other = box(Vec3(0, 0, 0), Vec3(3, 4, 5));
   std::swap(other.triangles[3], other.triangles[4]);
   EXPECT_NE(shape.check(), other.shape().check());

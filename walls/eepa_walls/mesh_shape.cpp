@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 
 namespace eepa {
@@ -118,7 +119,7 @@ double MeshShape::extent(const Vec3 &point, const Vec3 &axis) const
 
 double MeshShape::check() const
 {
-  // Fowler-Noll-Vo; vertices are numbered in the order in which triangles use them
+  // Fowler-Noll-Vo
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto add = [&hash](std::uint64_t value) {
     hash = (hash ^ value) * 0x100000001b3u;
@@ -126,6 +127,15 @@ double MeshShape::check() const
   for (const TriangleMesh::Three &corners : mesh_.corners)
     for (const int vertex : corners) add(static_cast<std::uint64_t>(vertex));
   for (const int number : mesh_.file_number) add(static_cast<std::uint64_t>(number));
+  const auto add_number = [&add](double number) {
+    std::uint64_t bits_of_number;
+    std::memcpy(&bits_of_number, &number, sizeof number);
+    add(bits_of_number);
+  };
+  for (const Vec3 &vertex : mesh_.vertices)
+    for (int k = 0; k < 3; k++) add_number(vertex[k]);
+  // which facets are one contact depends on it
+  add_number(smooth_cosine_);
   constexpr int bits = 53;
   return static_cast<double>(hash >> (64 - bits));
 }

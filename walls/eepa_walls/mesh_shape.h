@@ -41,7 +41,7 @@ class MeshShape : public Shape {
   bool continues(int face, const SurfacePoint &now, const Vec3 &centre) const override;
   bool is_between(const Vec3 &before, const Vec3 &now) const override;
   double extent(const Vec3 &point, const Vec3 &axis) const override;
-  /// From the corners of all triangles, in their order.
+  /// From the corners of all triangles, in their order, and the angle of smooth edges.
   double check() const override;
   bool has_face(int face) const override { return face >= 0 && face < mesh_.count(); }
 
