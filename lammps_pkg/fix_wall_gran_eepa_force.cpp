@@ -298,7 +298,8 @@ void FixWallGranEepa::touch(int i, const eepa::Body<double> &body, const Vec3 &c
 void FixWallGranEepa::part(int i, const eepa::Body<double> &body, const Vec3 &centre,
                            const FaceHistory &history, bool member)
 {
-  if (member && got_through(body, history)) stop_behind_wall(i);
+  if (member && (got_through(body, history) || (request.advance && shape->is_behind(centre))))
+    stop_behind_wall(i);
   if (!keep_ledger || (!request.advance && member)) return;
   SurfacePoint point = shape->nearest(history.face, centre);
   if (point.normal == Vec3::Zero()) {

@@ -17,7 +17,8 @@ using eepa::Vec3;
 bool FixWallGranEepa::got_through(const eepa::Body<double> &body, const FaceHistory &history) const
 {
   if (!request.advance) return false;
-  const Vec3 path = dt * placement.direction_to_shape(body.v - placement.velocity_at(body.x));
+  Vec3 path = dt * placement.direction_to_shape(body.v - placement.velocity_at(body.x));
+  if (shape->moves()) path -= dt * shape->drift(placement.to_shape(body.x));
   return eepa::dot(path, history.normal) < -0.5 * history.distance;
 }
 
@@ -28,7 +29,9 @@ void FixWallGranEepa::require_slow(int i) const
   if (!request.advance || !(atom->mask[i] & groupbit)) return;
   const Vec3 x(atom->x[i]), v(atom->v[i]);
   const double radius = atom->radius[i];
-  const Vec3 path = dt * (v - placement.velocity_at(x));
+  Vec3 path = dt * (v - placement.velocity_at(x));
+  if (shape->moves())
+    path -= dt * placement.direction_to_space(shape->drift(placement.to_shape(x)));
   if (!(path.squaredNorm() > radius * radius)) return;
   const Vec3 now = placement.to_shape(x);
   const Vec3 before = now - placement.direction_to_shape(path);

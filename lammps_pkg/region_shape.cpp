@@ -246,6 +246,14 @@ bool RegionShape::is_between(const Vec3 &before, const Vec3 &now) const
   return false;
 }
 
+/// A region without open faces can be left through its surface only.
+bool RegionShape::is_behind(const Vec3 &centre) const
+{
+  for (const Part &part : parts_)
+    if (part.region->openflag) return false;
+  return !region_->match(centre[0], centre[1], centre[2]);
+}
+
 double RegionShape::extent(const Vec3 &point, const Vec3 &) const
 {
   if (moves() || !region_->bboxflag) return std::numeric_limits<double>::infinity();

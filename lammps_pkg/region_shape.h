@@ -54,6 +54,7 @@ class RegionShape final : public eepa::Shape {
                                  const eepa::Vec3 &path) const override;
   eepa::Vec3 drift(const eepa::Vec3 &point) const override;
   bool is_between(const eepa::Vec3 &before, const eepa::Vec3 &now) const override;
+  bool is_behind(const eepa::Vec3 &centre) const override;
   double extent(const eepa::Vec3 &point, const eepa::Vec3 &axis) const override;
   bool has_face(int face) const override { return face >= 0; }
 

@@ -221,4 +221,24 @@ TEST(RegionWall, NamesWhoGetsThrough)
       refuses(simulation, "run 3", "the center of atom 1 is through the region r at step 1"));
 }
 
+// A region that moves over a sphere at rest by its own keywords, or shrinks around it.
+TEST(RegionWall, NamesWhoIsLeftBehind)
+{
+  const std::string soft =
+      "fix w all wall/gran/eepa linear dtcheck off coeff 1e2 1e2 0 0 0 wall region r";
+  for (const char *region :
+       {"variable z equal 15*step*dt\nregion r block -8 8 -8 8 0 30 move NULL NULL v_z\n",
+        "variable r equal 3-20*step*dt\nregion r sphere 0 0 0 v_r\n"}) {
+    Simulation simulation;
+    simulation.open_box(40.0);
+    simulation.create({{Vec3(2, 0, 1)}});
+    simulation(std::string("pair_style zero 1.0\npair_coeff * *\nfix integrate all nve/sphere\n"
+                           "timestep 1e-4\n") +
+               region + soft);
+    EXPECT_TRUE(
+        refuses(simulation, "run 3000", "the center of atom 1 is through the region r at step"))
+        << region;
+  }
+}
+
 }    // namespace

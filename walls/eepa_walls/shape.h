@@ -87,6 +87,9 @@ class Shape {
   /// Whether a centre that moves in a straight line gets from one side of the surface to the other.
   virtual bool is_between(const Vec3 &before, const Vec3 &now) const = 0;
 
+  /// Whether a centre is certainly on the side of a closed surface that spheres do not touch.
+  virtual bool is_behind(const Vec3 & /*centre*/) const { return false; }
+
   /// Largest distance of the surface from an axis, infinity where it has none. A rotation about the
   /// axis moves no point further than that times the angle.
   /// \param axis  unit vector
