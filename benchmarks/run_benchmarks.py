@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Callable, Dict, List, Mapping, Optional, Sequence
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "examples" / "scale_collapse")]
+sys.path[:0] = [str(HERE), str(HERE.parent / "examples" / "scale_collapse"), str(HERE.parent / "examples")]
 
 try:
     import numpy  # noqa: F401
@@ -27,10 +27,11 @@ from collapse.curves import BadCurve  # noqa: E402
 from collapse.runs import RunFailed, find_lmp  # noqa: E402
 
 from bench import (cases, cost, diameters, instructions, kernel, machine,  # noqa: E402
-                   many_particles, many_types, memory, report, scaling)
+                   many_particles, many_types, memory, report, scaling, walls)
 from bench.lammps import Program, has_pair_style, usable_cores  # noqa: E402
 from bench.lammps_log import BadLog  # noqa: E402
 from bench.output import write_csv  # noqa: E402
+from machines.meshes import write_stl  # noqa: E402
 
 
 @dataclass(frozen=True)
@@ -154,6 +155,13 @@ def run_types(s: Session) -> None:
     s.write("types", rows, many_types.table(rows))
 
 
+def run_walls(s: Session) -> None:
+    """100,000 spheres in a cube of 100,000 triangles, beside planes and no walls"""
+    size = {"cells": 12, "cuts": 23, "steps": 50} if s.quick else {"cells": 47, "cuts": 91, "steps": 100}
+    rows = walls.measure(s.program, rounds=s.rounds, work=s.work, write_stl=write_stl, **size)
+    s.write("walls", rows, walls.table(rows))
+
+
 PARTS: Dict[str, Callable[[Session], None]] = {
     "kernel": run_kernel,
     "cost": run_cost,
@@ -163,6 +171,7 @@ PARTS: Dict[str, Callable[[Session], None]] = {
     "memory": run_memory,
     "many_particles": run_many_particles,
     "types": run_types,
+    "walls": run_walls,
 }
 
 

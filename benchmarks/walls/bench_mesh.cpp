@@ -111,11 +111,11 @@ void measure_contacts(const MeshShape &shape, double radius, int spheres)
     return static_cast<double>(random() >> 11) * 0x1p-53;
   };
   std::vector<Vec3> centres;
-  std::vector<int> pieces;
+  std::vector<SurfacePiece> pieces;
   std::vector<std::size_t> first = {0};
   for (int i = 0; i < spheres; ++i) {
     const int t = static_cast<int>(number() * mesh.count());
-    centres.push_back(mesh.centroid(t) + 0.99 * radius * mesh.normals[t]);
+    centres.push_back(mesh.centroid(t) + 0.99 * radius * mesh.normal(t));
   }
   double start = seconds();
   for (const Vec3 &centre : centres) {
