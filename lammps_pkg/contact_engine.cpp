@@ -2,6 +2,7 @@
 #include "contact_engine.h"
 
 #include "contact_lanes.h"
+#include "wall_lanes.h"
 
 #include <eepa/dispatch.h>
 #include <eepa/status.h>
@@ -28,6 +29,25 @@ namespace {
                                                    forces, found, count, slice);
 #else
       return 0;
+#endif
+    }
+
+    int wall_lanes() const override
+    {
+#ifdef EEPA_HAS_LANES
+      return WallLanes::width;
+#else
+      return 0;
+#endif
+    }
+
+    void evaluate_wall_lanes([[maybe_unused]] const eepa::Coefficients &c,
+                             [[maybe_unused]] double time_step,
+                             [[maybe_unused]] const WallContact *contacts,
+                             [[maybe_unused]] ContactOutcome *outcomes) const override
+    {
+#ifdef EEPA_HAS_LANES
+      WallLanes(contacts).evaluate<ContactLaw>(c, time_step, outcomes);
 #endif
     }
 

@@ -40,6 +40,13 @@ struct ContactOutcome {
   eepa::Dissipation lost;       ///< if requested
 };
 
+/// A contact of a particle and a wall that goes on from the step before.
+struct WallContact {
+  eepa::Body<double> body;
+  eepa::WallPoint<double> wall;    ///< overlap > 0
+  double *history;                 ///< history_size() values
+};
+
 /// State and forces of a contact, queried between two steps.
 struct ContactReport {
   eepa::Response response;                ///< torques that the law does not have are 0
@@ -51,8 +58,8 @@ struct ContactReport {
 /// wall hold one engine, made once a run for the law that the user chose; their own code is the
 /// same for all laws.
 ///
-/// There are two evaluations. The one in lanes takes a block of pairs of particles, in steps that
-/// need only forces. The scalar one takes any single contact and computes what is requested.
+/// There are two kinds of evaluation. Those in lanes take several contacts, in steps that need forces
+/// and at walls energies. The scalar one takes any single contact and computes what is requested.
 class ContactEngine {
  public:
   virtual ~ContactEngine() = default;
@@ -63,6 +70,17 @@ class ContactEngine {
   virtual int evaluate_lanes(const CoefficientClasses &classes, double time_step,
                              const ParticleArrays &particles, const ForceArrays &forces,
                              const FoundContact *found, int count, ContactSlice &slice) const = 0;
+
+  /// How many contacts with a wall evaluate_wall_lanes() takes; 0 where there are no lanes.
+  virtual int wall_lanes() const = 0;
+
+  /// Evaluates contacts with a wall side by side, the same as evaluate() in a step without losses, and
+  /// stores their new states.
+  /// \param contacts  wall_lanes() of them
+  /// \param[out] outcomes  as many; the status is not set
+  virtual void evaluate_wall_lanes(const eepa::Coefficients &c, double time_step,
+                                   const WallContact *contacts,
+                                   ContactOutcome *outcomes) const = 0;
 
   /// \param contact  overlap > 0
   /// \param first  whether the contact formed in this step

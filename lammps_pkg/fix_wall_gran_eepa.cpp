@@ -269,9 +269,8 @@ void FixWallGranEepa::complain(const std::string &message)
 
 double FixWallGranEepa::memory_usage()
 {
-  double bytes = histories.memory_usage() + masses.memory_usage() +
-      static_cast<double>((candidates.capacity() + pieces.capacity() + first_piece.capacity()) *
-                          sizeof(int));
+  double bytes = histories.memory_usage() + masses.memory_usage() + candidates.memory_usage() +
+      static_cast<double>(visits.capacity() * sizeof(Visit));
   if (contact_table) bytes += static_cast<double>(atom->nmax) * N_ATOM * sizeof(double);
   if (face_loads) bytes += face_loads->memory_usage();
   return bytes;

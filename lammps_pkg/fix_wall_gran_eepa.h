@@ -19,6 +19,7 @@ FixStyle(wall/gran/eepa,FixWallGranEepa);
 
 #include <eepa/coefficients.h>
 #include <eepa_commands/wall_commands.h>
+#include <eepa_walls/candidates.h>
 #include <eepa_walls/face_histories.h>
 #include <eepa_walls/placement.h>
 #include <eepa_walls/shape.h>
@@ -154,9 +155,13 @@ class FixWallGranEepa : public Fix {
   bool output_is_summed = true;    // whether output_vector has the sums of all ranks
   std::unique_ptr<class FaceLoads> face_loads;    // of `faces`
 
-  // the atoms that a force call visits: all that can touch a face before the next collection, with the
-  // pieces of the shape that each of them can touch
-  std::vector<int> candidates, pieces, first_piece;
+  eepa::Candidates candidates;      // all that can touch a face before the next collection
+  struct Visit {
+    int candidate, pieces;    // how many of its pieces, the nearest ones
+  };
+  std::vector<Visit> visits;        // of the candidates, those that may be in contact in this force call
+  double collected_margin = 0.0;    // by which a particle may move before the next collection
+  std::vector<eepa::Vec3> places;    // of all atoms then, where neighbour lists do not bound their motion
   eepa::Placement collected_at;     // the placement at the last collection
   bool rotation_is_new = false;     // since the last collection
   double travel_left = 0.0;         // travel of the surface that requires the next collection
@@ -166,6 +171,16 @@ class FixWallGranEepa : public Fix {
   std::vector<eepa::SurfacePoint> found;    // its contacts
   std::vector<int> history_of_found;        // their places in its list of histories, or -1
   std::vector<char> is_matched;             // whether a history has a contact in `found`
+
+  struct Touch {
+    int particle;
+    eepa::SurfacePoint point;
+    eepa::FaceHistory *history;
+  };
+  bool may_wait = false;    // whether contacts of this force call wait until they fill the lanes
+  std::vector<Touch> waiting;
+  std::vector<WallContact> waiting_contacts;    // the same ones
+  std::vector<ContactOutcome> waiting_outcomes;
 
   EnergyLedger ledger;
   bool keep_ledger = false;
@@ -213,21 +228,34 @@ class FixWallGranEepa : public Fix {
   double evaluate_load();
   void place_wall();
 
-  // force call, fix_wall_gran_eepa_force.cpp
-  bool motion_is_bounded() const;
+  // which particles are looked at, fix_wall_gran_eepa_candidates.cpp
+  bool candidates_stay() const;
+  bool lists_bound_motion() const;
+  bool candidates_are_old() const;
+  bool surface_stays() const;
   double travelled() const;
   void collect_candidates();
-  void prefetch_candidate(std::size_t k) const;
+  void choose_visits();
+  void prefetch_place(int i) const;
+  void prefetch(const Visit &visit) const;
+
+  // force call, fix_wall_gran_eepa_force.cpp
   void sum_forces();
   void book(int i, const eepa::Dissipation &);
-  void meet(int i, const int *pieces_of_i, int count);
+  bool books_setup() const;
+  void meet(const Visit &visit);
   void match(int i, const eepa::Vec3 &centre);
-  void touch(int i, const eepa::Body<double> &, const eepa::Vec3 &centre, int which);
+  eepa::WallPoint<double> touched_wall(int i, const eepa::Body<double> &, const eepa::Vec3 &centre,
+                                       const eepa::SurfacePoint &) const;
+  void wait_for_others(const eepa::Body<double> &, const eepa::WallPoint<double> &, const Touch &);
+  void evaluate_waiting();
+  void evaluate(const eepa::Body<double> &, const eepa::WallPoint<double> &, const Touch &);
+  void finish(const Touch &, const eepa::Body<double> &, const eepa::WallPoint<double> &,
+              const ContactOutcome &);
   void part(int i, const eepa::Body<double> &, const eepa::Vec3 &centre,
             const eepa::FaceHistory &, bool member);
   bool got_through(const eepa::Body<double> &, const eepa::FaceHistory &) const;
-  void part_after_setup(int i, const eepa::Body<double> &, const eepa::Vec3 &centre,
-                        const int *pieces_of_i, int count);
+  void part_after_setup(int candidate, const eepa::Body<double> &, const eepa::Vec3 &centre);
   eepa::WallPoint<double> wall_point(const eepa::SurfacePoint &, const eepa::Body<double> &,
                                      const eepa::Vec3 &centre) const;
   void tabulate(int i, const eepa::Body<double> &, const eepa::WallPoint<double> &,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// The force call of FixWallGranEepa: which particles may touch the wall, and the contacts of each.
+// The force call of FixWallGranEepa, and the contacts of a particle.
 
 #include "fix_wall_gran_eepa.h"
 
@@ -54,8 +54,7 @@ void FixWallGranEepa::post_force(int vflag)
   const bool step = update->setupflag == 0;
   request = StepRequest::of_call(step, dt, keep_ledger, ledger_starts);
   request.wants_energy = true;
-  if (!step || neighbor->ago == 0 || !motion_is_bounded() || !(travelled() <= travel_left))
-    collect_candidates();
+  if (candidates_are_old()) collect_candidates();
   sums = {};
   output_is_summed = false;
   ledger.elastic = eepa::StoredEnergy();
@@ -65,12 +64,19 @@ void FixWallGranEepa::post_force(int vflag)
   atom_losses.clear();
   if (keep_ledger) atom_losses = ComputeGranEepaEnergyAtom::find(modify);
   if (face_loads && step) face_loads->start_step();
-  const std::size_t count = candidates.size();
-  for (std::size_t k = 0; k < count; k++) {
-    constexpr std::size_t soon = 4;    // particles ahead
-    if (k + soon < count) prefetch_candidate(k + soon);
-    meet(candidates[k], pieces.data() + first_piece[k], first_piece[k + 1] - first_piece[k]);
+  // what is asked of single contacts is not known of several side by side
+  waiting_outcomes.resize(engine->wall_lanes());
+  may_wait =
+      !waiting_outcomes.empty() && step && !keep_ledger && !contact_table && !face_loads;
+  choose_visits();
+  for (std::size_t k = 0; k < visits.size(); k++) {
+    constexpr std::size_t soon = 4, later = 8;    // visits ahead
+    if (k + later < visits.size())
+      histories.prefetch_list(candidates.particle(visits[k + later].candidate));
+    if (k + soon < visits.size()) prefetch(visits[k + soon]);
+    meet(visits[k]);
   }
+  evaluate_waiting();
   after_setup = !step;
   if (step) ledger_starts = false;
   if (loaded()) {
@@ -93,77 +99,6 @@ void FixWallGranEepa::post_force(int vflag)
   }
 }
 
-/* ---------------------------------------------------------------------- candidates */
-
-/// Whether no atom moves by more than half the skin between two neighbour lists, and the wall moves
-/// by its drive only. LAMMPS ensures the former only if it checks all atoms, or makes a new list, in
-/// every step.
-bool FixWallGranEepa::motion_is_bounded() const
-{
-  return neighbor->every == 1 && neighbor->delay <= 1 && !neighbor->build_once &&
-      !neighbor->includegroup && !radii_may_change && !shape->moves();
-}
-
-/// Largest distance by which the surface may have approached any point since the last collection.
-double FixWallGranEepa::travelled() const
-{
-  if (rotation_is_new) return HUGE_VAL;
-  const Vec3 shift = placement.displacement - collected_at.displacement;
-  const double turn = std::fabs(placement.angle - collected_at.angle);
-  if (turn == 0.0) return shape->approach(placement.direction_to_shape(shift));
-  return shift.norm() + turn * rotation_reach;
-}
-
-/// Collects the atoms that can touch a face before the next collection, of any group, because
-/// groups may change. Where their motion is not bounded, collects those that touch at present.
-void FixWallGranEepa::collect_candidates()
-{
-  double margin = 0.0;
-  travel_left = 0.0;
-  if (motion_is_bounded()) {
-    // The wall may move by half the skin. Atoms may move by half the skin from their positions in a
-    // new neighbour list; in an older list they may have done so already, the other way. Some
-    // rounding is added.
-    travel_left = 0.5 * neighbor->skin;
-    margin = (1.0 + 1e-6) * (travel_left + (neighbor->ago == 0 ? 0.5 : 1.0) * neighbor->skin);
-  }
-  collected_at = placement;
-  rotation_is_new = false;
-  candidates.clear();
-  pieces.clear();
-  first_piece.assign(1, 0);
-  for (int i = 0; i < atom->nlocal; i++) {
-    require_slow(i);
-    const Vec3 centre = placement.to_shape(Vec3(atom->x[i]));
-    const bool near = shape->collect(centre, atom->radius[i] + margin, pieces);
-    if (!near && !histories.has_some(i)) {
-      pieces.resize(first_piece.back());
-      continue;
-    }
-    candidates.push_back(i);
-    first_piece.push_back(static_cast<int>(pieces.size()));
-  }
-  if (contact_table && atom->nlocal > 0)
-    std::fill_n(array_atom[0], static_cast<std::size_t>(atom->nlocal) * N_ATOM, 0.0);
-}
-
-/// Candidates are scattered over the particles: few of their data are in the cache.
-void FixWallGranEepa::prefetch_candidate(std::size_t k) const
-{
-#if defined(__GNUC__) || defined(__clang__)
-  const int i = candidates[k];
-  __builtin_prefetch(atom->x[i]);
-  __builtin_prefetch(atom->v[i]);
-  __builtin_prefetch(atom->omega[i]);
-  __builtin_prefetch(atom->f[i], 1);
-  __builtin_prefetch(atom->torque[i], 1);
-  __builtin_prefetch(atom->radius + i);
-  __builtin_prefetch(atom->rmass + i);
-  __builtin_prefetch(atom->mask + i);
-#endif
-  shape->prefetch(pieces.data() + first_piece[k], first_piece[k + 1] - first_piece[k]);
-}
-
 /* ---------------------------------------------------------------------- contacts of a particle */
 
 eepa::Body<double> FixWallGranEepa::body_of(int i) const
@@ -172,31 +107,55 @@ eepa::Body<double> FixWallGranEepa::body_of(int i) const
           masses.mass(i)};
 }
 
-void FixWallGranEepa::meet(int i, const int *pieces_of_i, int count)
+/// Whether losses of contacts that a set-up had are booked in this step: it leaves no history, so whether
+/// a particle touched then is found from its motion.
+bool FixWallGranEepa::books_setup() const
 {
-  if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
-  // a particle that leaves the group in contact must not find its old history when it comes back
-  const bool member = atom->mask[i] & groupbit;
-  if (!member && !keep_ledger) histories.clear(i);
-  if (!member && !histories.has_some(i)) return;
-  if (member) require_slow(i);
+  return keep_ledger && after_setup && request.advance;
+}
 
+/// Cosine of the angle by which the normal of a contact has turned, 1 where it was not known.
+static double alikeness(const FaceHistory &before, const SurfacePoint &now)
+{
+  return before.normal != Vec3::Zero() ? eepa::dot(before.normal, now.normal) : 1.0;
+}
+
+void FixWallGranEepa::meet(const Visit &visit)
+{
+  const int i = candidates.particle(visit.candidate);
+  const bool member = atom->mask[i] & groupbit;
   const Vec3 centre = placement.to_shape(Vec3(atom->x[i]));
   found.clear();
-  if (member) shape->visit(centre, atom->radius[i], pieces_of_i, count, found);
-  // a set-up leaves no history, so whether the particle touched then is found from its motion
-  const bool unknown_may_be_old = member && keep_ledger && after_setup && request.advance;
-  if (found.empty() && !histories.has_some(i) && !unknown_may_be_old) return;
+  if (member)
+    shape->visit(centre, atom->radius[i], candidates.pieces(visit.candidate), visit.pieces, found);
+  const bool had_some = histories.has_some(i);
+  if (found.empty() && !had_some && !books_setup()) return;
 
   const eepa::Body<double> body = body_of(i);
+  if (found.size() == 1 && had_some) {
+    // by far the most frequent case: the contact of the step before goes on
+    auto &list = histories.mutable_list(i);
+    if (list.size() == 1 && list[0].face == found[0].face && alikeness(list[0], found[0]) > 0.0) {
+      const eepa::WallPoint<double> wall = touched_wall(i, body, centre, found[0]);
+      if (may_wait)
+        wait_for_others(body, wall, {i, found[0], &list[0]});
+      else
+        evaluate(body, wall, {i, found[0], &list[0]});
+      return;
+    }
+  }
   match(i, centre);
-  if (histories.has_some(i)) {
+  if (had_some) {
     FaceHistory *list = histories.mutable_list(i).data();
     for (std::size_t k = 0; k < is_matched.size(); k++)
       if (!is_matched[k]) part(i, body, centre, list[k], member);
   }
-  if (unknown_may_be_old) part_after_setup(i, body, centre, pieces_of_i, count);
-  for (std::size_t k = 0; k < found.size(); k++) touch(i, body, centre, static_cast<int>(k));
+  if (member && books_setup()) part_after_setup(visit.candidate, body, centre);
+  for (std::size_t k = 0; k < found.size(); k++) {
+    const int which = history_of_found[k];
+    evaluate(body, touched_wall(i, body, centre, found[k]),
+             {i, found[k], which < 0 ? nullptr : &histories.mutable_list(i)[which]});
+  }
 
   if (!histories.has_some(i)) return;
   auto &list = histories.mutable_list(i);
@@ -215,6 +174,7 @@ void FixWallGranEepa::match(int i, const Vec3 &centre)
   const auto &list = histories.list(i);
   history_of_found.assign(found.size(), -1);
   is_matched.assign(list.size(), 0);
+  if (found.empty() || list.empty()) return;
   for (const bool same_face : {true, false})
     for (;;) {
       double closest = 0.0;
@@ -223,8 +183,7 @@ void FixWallGranEepa::match(int i, const Vec3 &centre)
         if (history_of_found[k] >= 0) continue;
         for (std::size_t m = 0; m < list.size(); m++) {
           if (is_matched[m]) continue;
-          const bool is_known = list[m].normal != Vec3::Zero();
-          const double alike = is_known ? eepa::dot(list[m].normal, found[k].normal) : 1.0;
+          const double alike = alikeness(list[m], found[k]);
           if (alike <= closest) continue;
           if (same_face ? list[m].face != found[k].face
                         : !shape->continues(list[m].face, found[k], centre))
@@ -240,40 +199,80 @@ void FixWallGranEepa::match(int i, const Vec3 &centre)
     }
 }
 
-/// A contact of this step.
-void FixWallGranEepa::touch(int i, const eepa::Body<double> &body, const Vec3 &centre, int which)
+/// The wall at a contact of this step; stops the run where it is too deep.
+eepa::WallPoint<double> FixWallGranEepa::touched_wall(int i, const eepa::Body<double> &body,
+                                                      const Vec3 &centre,
+                                                      const SurfacePoint &point) const
 {
-  const SurfacePoint &point = found[which];
-  FaceHistory fresh;
-  fresh.face = point.face;
-  const bool known = history_of_found[which] >= 0;
-  FaceHistory &history = known ? histories.mutable_list(i)[history_of_found[which]] : fresh;
   const eepa::WallPoint<double> wall = wall_point(point, body, centre);
   if (eepa::too_deep(wall.overlap, body.radius)) stop_at_overlap(i, point.face, wall.overlap);
-  const eepa::Contact contact = eepa::contact_at_wall(body, wall, request.time_step);
-  const bool touched_in_setup = keep_ledger && after_setup && request.advance &&
-      wall.overlap + contact.velocity.dot(contact.normal) * dt > 0.0;
-  const ContactOutcome outcome = engine->evaluate(
-      coefficients, request, contact, !known && !touched_in_setup, history.values.data());
-  history.face = point.face;
-  if (request.advance) {
-    history.normal = point.normal;
-    history.distance = point.distance;
-    if (!known) histories.mutable_list(i).push_back(history);
-  }
+  return wall;
+}
 
-  const eepa::Wrench<double> &wrench = outcome.wrench;
-  elastic_energy += outcome.energy.total();
-  if (keep_ledger) ledger.store(outcome.energy, 1.0);
-  if (request.wants_losses) book(i, outcome.lost);
+/// Evaluates a contact together with others. Until then the list of histories of its particle must stay
+/// as it is.
+void FixWallGranEepa::wait_for_others(const eepa::Body<double> &body,
+                                      const eepa::WallPoint<double> &wall, const Touch &touch)
+{
+  waiting_contacts.push_back({body, wall, touch.history->values.data()});
+  waiting.push_back(touch);
+  if (waiting.size() < waiting_outcomes.size()) return;
+  engine->evaluate_wall_lanes(coefficients, request.time_step, waiting_contacts.data(),
+                              waiting_outcomes.data());
+  for (std::size_t k = 0; k < waiting.size(); k++)
+    finish(waiting[k], waiting_contacts[k].body, waiting_contacts[k].wall, waiting_outcomes[k]);
+  waiting_contacts.clear();
+  waiting.clear();
+}
+
+/// Contacts that are too few to fill the lanes.
+void FixWallGranEepa::evaluate_waiting()
+{
+  for (std::size_t k = 0; k < waiting.size(); k++)
+    evaluate(waiting_contacts[k].body, waiting_contacts[k].wall, waiting[k]);
+  waiting_contacts.clear();
+  waiting.clear();
+}
+
+/// \param touch  its history is nullptr where the contact begins
+void FixWallGranEepa::evaluate(const eepa::Body<double> &body, const eepa::WallPoint<double> &wall,
+                               const Touch &touch)
+{
+  FaceHistory fresh;
+  FaceHistory &history = touch.history ? *touch.history : fresh;
+  const eepa::Contact contact = eepa::contact_at_wall(body, wall, request.time_step);
+  const bool touched_in_setup =
+      books_setup() && wall.overlap + contact.velocity.dot(contact.normal) * dt > 0.0;
+  const ContactOutcome outcome = engine->evaluate(
+      coefficients, request, contact, !touch.history && !touched_in_setup, history.values.data());
   if (keep_ledger) {
+    ledger.store(outcome.energy, 1.0);
+    if (request.wants_losses) book(touch.particle, outcome.lost);
     // at the end of the step, as the force
     eepa::WallPoint<double> now = wall;
     const Vec3 spot = eepa::middle_of_overlap(body, wall.normal, wall.overlap);
     now.velocity += placement.velocity_at(spot) -
         placement.velocity_before(spot, body.v, 0.5 * request.time_step);
-    power += eepa::power_of_wall(wrench, contact, now);
+    power += eepa::power_of_wall(outcome.wrench, contact, now);
   }
+  if (face_loads && request.advance) face_loads->add(touch.point.face, contact, outcome.wrench, dt);
+  finish({touch.particle, touch.point, &history}, body, wall, outcome);
+  if (request.advance && !touch.history) histories.mutable_list(touch.particle).push_back(fresh);
+}
+
+/// Adds up what a contact does, and keeps where it is.
+void FixWallGranEepa::finish(const Touch &touch, const eepa::Body<double> &body,
+                             const eepa::WallPoint<double> &wall, const ContactOutcome &outcome)
+{
+  const int i = touch.particle;
+  const SurfacePoint &point = touch.point;
+  if (request.advance) {
+    touch.history->face = point.face;
+    touch.history->normal = point.normal;
+    touch.history->distance = point.distance;
+  }
+  const eepa::Wrench<double> &wrench = outcome.wrench;
+  elastic_energy += outcome.energy.total();
   const Vec3 moment = eepa::moment_on_wall(wrench, body.x, Vec3(about.data()));
   double *force_on_wall = sums.force[typed_shape.planes() == 2 ? point.face : 0];
   for (int k = 0; k < 3; k++) {
@@ -284,7 +283,6 @@ void FixWallGranEepa::touch(int i, const eepa::Body<double> &body, const Vec3 &c
   }
   sums.contacts += 1.0;
   if (contact_table) tabulate(i, body, wall, outcome);
-  if (face_loads && request.advance) face_loads->add(point.face, contact, wrench, dt);
   if (vflag_either) {
     const Vec3 arm = point.distance * wall.normal;
     const Vec3 &f = wrench.force;
@@ -313,12 +311,14 @@ void FixWallGranEepa::part(int i, const eepa::Body<double> &body, const Vec3 &ce
 
 /// Books the opening of contacts that the set-up had and the first step has not: the set-up stored
 /// no history.
-void FixWallGranEepa::part_after_setup(int i, const eepa::Body<double> &body, const Vec3 &centre,
-                                       const int *pieces_of_i, int count)
+void FixWallGranEepa::part_after_setup(int candidate, const eepa::Body<double> &body,
+                                       const Vec3 &centre)
 {
+  const int i = candidates.particle(candidate);
   const double step = dt * (body.v - placement.velocity_at(body.x)).norm();
   std::vector<SurfacePoint> near;
-  shape->visit(centre, body.radius + step, pieces_of_i, count, near);
+  shape->visit(centre, body.radius + step, candidates.pieces(candidate),
+               candidates.piece_count(candidate), near);
   const FaceHistory none;
   for (const SurfacePoint &point : near) {
     if (point.distance < body.radius) continue;

@@ -129,12 +129,12 @@ bool has_surface_near(Region *region, const Vec3 &centre, double reach)
 
 }    // namespace
 
-bool RegionShape::collect(const Vec3 &centre, double reach, std::vector<int> &) const
+bool RegionShape::collect(const Vec3 &centre, double reach, std::vector<eepa::SurfacePiece> &) const
 {
   return moves() ? contacts(centre, reach) > 0 : has_surface_near(region_, centre, reach);
 }
 
-void RegionShape::visit(const Vec3 &centre, double radius, const int *, int,
+void RegionShape::visit(const Vec3 &centre, double radius, const eepa::SurfacePiece *, int,
                         std::vector<SurfacePoint> &found) const
 {
   const int count = contacts(centre, radius);

@@ -43,8 +43,9 @@ class RegionShape final : public eepa::Shape {
     if (parts_.size() == 1) parts_[0].motion = motion;
   }
 
-  bool collect(const eepa::Vec3 &centre, double reach, std::vector<int> &pieces) const override;
-  void visit(const eepa::Vec3 &centre, double radius, const int *pieces, int count,
+  bool collect(const eepa::Vec3 &centre, double reach,
+               std::vector<eepa::SurfacePiece> &pieces) const override;
+  void visit(const eepa::Vec3 &centre, double radius, const eepa::SurfacePiece *pieces, int count,
              std::vector<eepa::SurfacePoint> &found) const override;
   eepa::SurfacePoint nearest(int face, const eepa::Vec3 &centre) const override;
   eepa::Vec3 normal_rate(const eepa::SurfacePoint &point, const eepa::Vec3 &centre,

@@ -42,7 +42,7 @@ void require_message(const std::invalid_argument &error)
 void touch(const MeshShape &shape, const Vec3 &centre, double radius, std::vector<int> &all)
 {
   const TriangleMesh &mesh = shape.mesh();
-  std::vector<int> pieces;
+  std::vector<SurfacePiece> pieces;
   std::vector<SurfacePoint> found, whole;
   shape.collect(centre, radius, pieces);
   shape.visit(centre, radius, pieces.data(), static_cast<int>(pieces.size()), found);
@@ -83,7 +83,7 @@ void use(const StlTriangles &triangles)
     }
     for (int t = 0; t < mesh.count(); ++t) {
       REQUIRE(mesh.areas[t] > 0.0, mesh.areas[t], 0);
-      REQUIRE(std::fabs(mesh.normals[t].norm() - 1.0) < 1e-12, mesh.normals[t].norm(), 1);
+      REQUIRE(std::fabs(mesh.normal(t).norm() - 1.0) < 1e-12, mesh.normal(t).norm(), 1);
     }
     std::vector<int> all(mesh.count());
     for (int t = 0; t < mesh.count(); ++t) all[t] = t;
@@ -92,7 +92,7 @@ void use(const StlTriangles &triangles)
     for (int t = 0; t < std::min(mesh.count(), 8); ++t) {
       const double radius = diagonal * std::pow(2.0, -t);
       for (const double height : {0.0, 0.5, 0.999}) {
-        const Vec3 centre = mesh.centroid(t) + height * radius * mesh.normals[t];
+        const Vec3 centre = mesh.centroid(t) + height * radius * mesh.normal(t);
         touch(shape, centre, radius, all);
         shape.is_between(last, centre);
         last = centre;

@@ -17,12 +17,25 @@ namespace {
 constexpr int POSITION = 4, CONTACTS = 6;
 constexpr double skin = 0.1;    // of open_box()
 
-// With the first setting neighbour lists bound how far particles move. With the others they do not,
-// so that the wall visits all particles in every step.
+// With the first setting neighbour lists bound how far particles move. With the next three they do not, so
+// that the wall itself watches how far they move. With the last one it looks at all particles in every
+// step, because it must expect that a fix changes their radii.
 constexpr const char *bounded = "neigh_modify every 1 delay 0 check yes";
-constexpr const char *looks_at_all[] = {"neigh_modify every 200 delay 0 check yes",
-                                        "neigh_modify every 1 delay 200 check yes",
-                                        "neigh_modify every 1 delay 0 check yes once yes"};
+constexpr const char *others[] = {
+    "neigh_modify every 200 delay 0 check yes", "neigh_modify every 1 delay 200 check yes",
+    "neigh_modify every 1 delay 0 check yes once yes",
+    "neigh_modify every 1 delay 0 check yes\nvariable one equal 1\ngroup nobody empty\n"
+    "fix nothing nobody adapt 1000000 atom diameter v_one"};
+constexpr const char *looks_at_all = others[3];
+
+/// The box of Simulation::open_box(), for particles of which a fix may change the radii.
+void open_box(Simulation &simulation, double half, const std::string &boundary)
+{
+  const std::string side = exact(-half) + " " + exact(half) + " ";
+  simulation("units si\natom_style sphere 1\natom_modify map array\nboundary " + boundary +
+             "\nregion box block " + side + side + side + "\ncreate_box 1 box\ncomm_modify vel yes\n" +
+             "neighbor 0.1 bin\n" + bounded + "\nthermo 1000000");
+}
 
 /// Runs without a set-up, in which the wall would visit all particles.
 void go_on(Simulation &simulation, int steps)
@@ -60,7 +73,7 @@ std::vector<Sphere> gas(double speed)
 void open_gas(Simulation &simulation, const Gas &gas_of, const std::string &neighbours)
 {
   simulation("atom_modify sort 0 0.0");    // the sum of forces on a platen depends on their order
-  simulation.open_box(5.0);
+  open_box(simulation, 5.0, "f f f");
   simulation.create(gas(gas_of.speed));
   const std::string walls = gas_of.walls,
                     law = "linear coeff 1e4 3e4 5e3 -0.1 0.5 restitution 0.8 "
@@ -75,11 +88,11 @@ class GasBetweenWalls : public testing::TestWithParam<Gas> {};
 
 TEST_P(GasBetweenWalls, IsThatOfAWallThatLooksAtAll)
 {
-  Simulation listed, all[3];
+  Simulation listed, all[4];
   open_gas(listed, GetParam(), bounded);
   listed.run(1);
-  for (int k = 0; k < 3; k++) {
-    open_gas(all[k], GetParam(), looks_at_all[k]);
+  for (int k = 0; k < 4; k++) {
+    open_gas(all[k], GetParam(), others[k]);
     all[k].run(1);
   }
   double touching = 0.0, most = 0.0;
@@ -250,7 +263,7 @@ class ParallelCandidates : public testing::TestWithParam<const char *> {
     int ranks;
     MPI_Comm_size(simulation.comm(), &ranks);
     simulation("processors " + std::to_string(ranks) + " 1 1");
-    simulation.open_box(3.0, 1, "p p f");
+    open_box(simulation, 3.0, "p p f");
     auto spheres = gas(3.0);
     for (auto &sphere : spheres) sphere.v += Vec3(30, -15, 0);
     simulation.create(spheres);
@@ -266,7 +279,7 @@ class ParallelCandidates : public testing::TestWithParam<const char *> {
 TEST_P(ParallelCandidates, AreNotLostOnTheWay)
 {
   Simulation alone(MPI_COMM_SELF), together;
-  open_sliding(alone, looks_at_all[0]);
+  open_sliding(alone, looks_at_all);
   open_sliding(together, GetParam());
   double touching = 0.0;
   alone.run(1);
@@ -291,7 +304,7 @@ TEST_P(ParallelCandidates, AreNotLostOnTheWay)
 TEST_P(ParallelCandidates, AreFoundAmongThoseThatComeInMidRun)
 {
   Simulation alone(MPI_COMM_SELF), together;
-  open_sliding(alone, looks_at_all[0]);
+  open_sliding(alone, others[0]);    // fix adapt and fix deposit do not work together
   open_sliding(together, GetParam());
   for (auto *simulation : {&alone, &together}) {
     (*simulation)(
@@ -311,6 +324,6 @@ TEST_P(ParallelCandidates, AreFoundAmongThoseThatComeInMidRun)
   }
   EXPECT_GT(risen, 50);
 }
-INSTANTIATE_TEST_SUITE_P(Neighbours, ParallelCandidates, testing::Values(bounded, looks_at_all[1]));
+INSTANTIATE_TEST_SUITE_P(Neighbours, ParallelCandidates, testing::Values(bounded, others[1]));
 
 }    // namespace

@@ -16,7 +16,7 @@ namespace {
 
 std::vector<SurfacePoint> contacts(const Shape &shape, const Vec3 &centre, double radius)
 {
-  std::vector<int> pieces;
+  std::vector<SurfacePiece> pieces;
   std::vector<SurfacePoint> found;
   if (shape.collect(centre, radius, pieces))
     shape.visit(centre, radius, pieces.data(), static_cast<int>(pieces.size()), found);

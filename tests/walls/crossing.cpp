@@ -106,10 +106,10 @@ TEST(Candidates, AreEnoughWhileTheCentreStaysWithinTheReach)
 {
   Random random(8);
   const MeshShape shape = lump(9);
-  std::vector<int> all(shape.mesh().count());
-  for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<int>(t);
-  int contacts_seen = 0;
-  std::vector<int> pieces = {-7};
+  std::vector<SurfacePiece> all(shape.mesh().count());
+  for (std::size_t t = 0; t < all.size(); ++t) all[t] = {static_cast<int>(t), 0.0f};
+  int contacts_seen = 0, left_out = 0;
+  std::vector<SurfacePiece> pieces = {{-7, 0.0f}};
   std::vector<SurfacePoint> some, whole;
   for (int i = 0; i < 3000; ++i) {
     const double radius = random.between(0.05, 0.4), margin = random.between(0, 0.2);
@@ -117,13 +117,26 @@ TEST(Candidates, AreEnoughWhileTheCentreStaysWithinTheReach)
     pieces.resize(1);
     const bool any = shape.collect(centre, radius + margin, pieces);
     ASSERT_EQ(any, pieces.size() > 1);
-    ASSERT_EQ(pieces[0], -7);
-    ASSERT_TRUE(std::is_sorted(pieces.begin() + 1, pieces.end()));
+    ASSERT_EQ(pieces[0].number, -7);
+    for (std::size_t p = 1; p < pieces.size(); ++p) {
+      const double distance = shape.nearest(pieces[p].number, centre).distance;
+      ASSERT_LE(pieces[p].distance, distance);
+      ASSERT_NEAR(pieces[p].distance, distance, 1e-6);
+      ASSERT_LE(pieces[p - 1].distance, pieces[p].distance);
+    }
+    Candidates candidates;
+    candidates.add(i, centre, radius + margin, shape, false);
+    ASSERT_EQ(candidates.count(), any ? 1u : 0u);
     for (int k = 0; k < 5; ++k) {
       const Vec3 x = centre + (k == 4 ? margin : random.between(0, margin)) * random.direction();
       some.clear();
       whole.clear();
-      shape.visit(x, radius, pieces.data() + 1, static_cast<int>(pieces.size()) - 1, some);
+      if (any) {
+        const int near = candidates.near_pieces(0, x, radius);
+        ASSERT_LE(near, candidates.piece_count(0));
+        left_out += candidates.piece_count(0) - near;
+        shape.visit(x, radius, candidates.pieces(0), near, some);
+      }
       shape.visit(x, radius, all.data(), static_cast<int>(all.size()), whole);
       ASSERT_EQ(some.size(), whole.size());
       for (std::size_t c = 0; c < some.size(); ++c) {
@@ -135,12 +148,13 @@ TEST(Candidates, AreEnoughWhileTheCentreStaysWithinTheReach)
     }
   }
   EXPECT_GT(contacts_seen, 1000);
+  EXPECT_GT(left_out, 10000);
 }
 
 TEST(Candidates, AreThoseWithinTheReachAndNoOthers)
 {
   const MeshShape shape = plate(4, 3, 40, 30).shape();
-  std::vector<int> pieces;
+  std::vector<SurfacePiece> pieces;
   EXPECT_FALSE(shape.collect(Vec3(2, 1, 0.5), 0.4999, pieces));
   EXPECT_FALSE(shape.collect(Vec3(1e9, 1, 0.5), 1, pieces));
   EXPECT_TRUE(shape.collect(Vec3(2.05, 1.02, 0.5), 0.50001, pieces));

@@ -2,6 +2,7 @@
 #ifndef EEPA_TESTS_WALLS_SUPPORT_H
 #define EEPA_TESTS_WALLS_SUPPORT_H
 
+#include <eepa_walls/candidates.h>
 #include <eepa_walls/mesh_shape.h>
 
 #include <gtest/gtest.h>
@@ -163,7 +164,7 @@ inline Soup drawn_out(const std::vector<Vec3> &profile, double low, double high,
 /// The contacts of a sphere, candidates from collect() and all else as a driver does it.
 inline std::vector<SurfacePoint> contacts(const MeshShape &shape, const Vec3 &centre, double radius)
 {
-  std::vector<int> pieces;
+  std::vector<SurfacePiece> pieces;
   std::vector<SurfacePoint> found;
   if (shape.collect(centre, radius, pieces))
     shape.visit(centre, radius, pieces.data(), static_cast<int>(pieces.size()), found);

@@ -58,10 +58,10 @@ TEST(Mesh, OfABoxIsClosed)
   Vec3 sum = Vec3::Zero();
   for (int t = 0; t < 12; ++t) {
     area += mesh.areas[t];
-    sum += mesh.areas[t] * mesh.normals[t];
+    sum += mesh.areas[t] * mesh.normal(t);
     EXPECT_EQ(mesh.file_number[t], t + 1);
     // normals outwards
-    EXPECT_GT(mesh.normals[t].dot(mesh.centroid(t) - Vec3(0.5, 1, 1.5)), 0.0);
+    EXPECT_GT(mesh.normal(t).dot(mesh.centroid(t) - Vec3(0.5, 1, 1.5)), 0.0);
     // each edge of a triangle has its corners
     for (int k = 0; k < 3; ++k) {
       const TriangleMesh::Edge &edge = mesh.edges[mesh.edges_of[t][k]];

@@ -18,12 +18,13 @@ class Cylinder final : public Shape {
   /// \param radius  > 0 [length]
   explicit Cylinder(double radius) : radius_(radius) {}
 
-  bool collect(const Vec3 &centre, double reach, std::vector<int> & /*pieces*/) const override
+  bool collect(const Vec3 &centre, double reach,
+               std::vector<SurfacePiece> & /*pieces*/) const override
   {
     return std::fabs(radius_ - from_axis(centre)) < reach;
   }
 
-  void visit(const Vec3 &centre, double radius, const int * /*pieces*/, int /*count*/,
+  void visit(const Vec3 &centre, double radius, const SurfacePiece * /*pieces*/, int /*count*/,
              std::vector<SurfacePoint> &found) const override
   {
     const double r = from_axis(centre);

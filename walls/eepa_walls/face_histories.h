@@ -39,6 +39,27 @@ class FaceHistories {
     return has_some(particle) ? lists_[list_of_[particle]] : empty;
   }
 
+  /// Fetches a list that will be read soon, and its contacts, which is of use once the list is there.
+  void prefetch_list(int particle) const
+  {
+#if defined(__GNUC__) || defined(__clang__)
+    if (has_some(particle)) __builtin_prefetch(&lists_[list_of_[particle]]);
+#else
+    (void) particle;
+#endif
+  }
+  void prefetch_contacts(int particle) const
+  {
+#if defined(__GNUC__) || defined(__clang__)
+    if (!has_some(particle)) return;
+    const auto *first = reinterpret_cast<const char *>(lists_[list_of_[particle]].data());
+    for (std::size_t line = 0; line < sizeof(FaceHistory); line += 64)
+      __builtin_prefetch(first + line, 1);
+#else
+    (void) particle;
+#endif
+  }
+
   /// The same, to be changed; release() has to be called when it may have become empty.
   List &mutable_list(int particle)
   {

@@ -35,22 +35,30 @@ namespace {
     parents[std::max(i, j)] = std::min(i, j);
   }
 
-  bool is_on(const TriangleMesh &mesh, int triangle, const Vec3 &point)
+  bool has(const TriangleMesh::Three &numbers, int number)
   {
-    const Triangle t = mesh.triangle(triangle);
-    if (std::fabs(dot(t.normal, point - t.corner[0])) > mesh.tolerance) return false;
-    return closest_point(point, t).distance <= mesh.tolerance;
+    return numbers[0] == number || numbers[1] == number || numbers[2] == number;
   }
 
-  /// 0 inside the box
-  double squared_distance(const Vec3 &x, const TriangleMesh::Box &box)
+  /// Whether the edge or corner that is touched is one of a triangle's as well.
+  bool has_place_of(const TriangleMesh &mesh, int triangle, const MeshContacts::Touch &touch)
   {
-    double sum = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      const double outside = std::max({box.low[k] - x[k], x[k] - box.high[k], 0.0});
-      sum += outside * outside;
+    const int number = touch.at.number;
+    switch (touch.at.feature) {
+      case Feature::corner:
+        return has(mesh.corners[triangle], mesh.corners[touch.triangle][number]);
+      case Feature::edge:
+        return has(mesh.edges_of[triangle], mesh.edges_of[touch.triangle][number]);
+      default:
+        return false;
     }
-    return sum;
+  }
+
+  bool is_on(const TriangleMesh &mesh, int triangle, const Vec3 &point)
+  {
+    const Triangle &t = mesh.triangle(triangle);
+    if (std::fabs(dot(t.normal, point - t.corner[0])) > mesh.tolerance) return false;
+    return closest_point(point, t).distance <= mesh.tolerance;
   }
 
 }    // namespace
@@ -62,7 +70,7 @@ SurfacePoint surface_point(const TriangleMesh &mesh, int triangle, const Triangl
   point.face = triangle;
   point.distance = at.distance;
   point.straight.setZero();
-  const Vec3 &normal = mesh.normals[triangle];
+  const Vec3 &normal = mesh.normal(triangle);
   if (at.feature == Feature::inside || !(at.distance > 0.0)) {
     point.normal = at.height < 0.0 ? Vec3(-normal) : normal;
     return point;
@@ -79,8 +87,8 @@ SurfacePoint surface_point(const TriangleMesh &mesh, int triangle, const Triangl
 }
 
 void MeshContacts::find(const TriangleMesh &mesh, const std::vector<char> &smooth_edges,
-                        double smooth_cosine, const Vec3 &centre, double radius, const int *pieces,
-                        int count)
+                        double smooth_cosine, const Vec3 &centre, double radius,
+                        const SurfacePiece *pieces, int count)
 {
   found_.clear();
   touch(mesh, centre, radius, pieces, count);
@@ -94,17 +102,15 @@ void MeshContacts::find(const TriangleMesh &mesh, const std::vector<char> &smoot
 }
 
 void MeshContacts::touch(const TriangleMesh &mesh, const Vec3 &centre, double radius,
-                         const int *pieces, int count)
+                         const SurfacePiece *pieces, int count)
 {
   touched_.clear();
-  const double squared_radius = radius * radius * (1.0 + 1e-12);
   for (int i = 0; i < count; ++i) {
-    const int t = pieces[i];
-    // most pieces are not touched
-    if (!(squared_distance(centre, mesh.boxes[t]) < squared_radius)) continue;
+    const int t = pieces[i].number;
     const TrianglePoint at = closest_point(centre, mesh.triangle(t));
     if (at.distance < radius) touched_.push_back({at, t});
   }
+  if (touched_.size() < 2) return;
   std::sort(touched_.begin(), touched_.end(), [](const Touch &a, const Touch &b) {
     return a.at.distance != b.at.distance ? a.at.distance < b.at.distance : a.triangle < b.triangle;
   });
@@ -113,8 +119,15 @@ void MeshContacts::touch(const TriangleMesh &mesh, const Vec3 &centre, double ra
 /// Rule (i), for edges and corners that triangles share: a nearer triangle has been there.
 void MeshContacts::keep_minima(const TriangleMesh &mesh)
 {
-  if (touched_.size() == 1) {
-    found_.push_back(&touched_[0]);
+  // so few are compared with each other sooner than they are looked up
+  constexpr std::size_t few = 8;
+  if (touched_.size() <= few) {
+    for (const Touch &touch : touched_) {
+      const bool nearer_there = std::any_of(
+          static_cast<const Touch *>(touched_.data()), &touch,
+          [&](const Touch &nearer) { return has_place_of(mesh, nearer.triangle, touch); });
+      if (!nearer_there) found_.push_back(&touch);
+    }
     return;
   }
   places_.clear(6 * touched_.size());

@@ -32,14 +32,14 @@ class MeshContacts {
   /// \param smooth_cosine  of the largest angle of smooth edges
   /// \param pieces, count  triangles that may be touched, each once
   void find(const TriangleMesh &mesh, const std::vector<char> &smooth_edges, double smooth_cosine,
-            const Vec3 &centre, double radius, const int *pieces, int count);
+            const Vec3 &centre, double radius, const SurfacePiece *pieces, int count);
 
   /// The contacts, by the number of the triangle.
   const std::vector<const Touch *> &found() const { return found_; }
 
  private:
-  void touch(const TriangleMesh &mesh, const Vec3 &centre, double radius, const int *pieces,
-             int count);
+  void touch(const TriangleMesh &mesh, const Vec3 &centre, double radius,
+             const SurfacePiece *pieces, int count);
   void keep_minima(const TriangleMesh &mesh);
   void drop_hidden_minima(const TriangleMesh &mesh);
   void join_smooth(const TriangleMesh &mesh, const std::vector<char> &smooth_edges,

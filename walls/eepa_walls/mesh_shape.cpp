@@ -21,6 +21,12 @@ namespace {
   /// A contact that goes on may turn by this at least, so that it passes a nearly flat edge.
   constexpr double least_turn = 1.0 * degree;
 
+  float rounded_down(double x)
+  {
+    const float near = static_cast<float>(x);
+    return near > x ? std::nextafter(near, -HUGE_VALF) : near;
+  }
+
   double checked(double smooth)
   {
     if (!(smooth >= 0.0 && smooth <= 90.0))
@@ -44,20 +50,25 @@ MeshShape::MeshShape(TriangleMesh mesh, double smooth) : mesh_(std::move(mesh)),
   rounding_ = 1e-15 * mesh_.low.cwiseAbs().cwiseMax(mesh_.high.cwiseAbs()).maxCoeff();
 }
 
-bool MeshShape::collect(const Vec3 &centre, double reach, std::vector<int> &pieces) const
+bool MeshShape::collect(const Vec3 &centre, double reach, std::vector<SurfacePiece> &pieces) const
 {
   const std::size_t before = pieces.size();
-  const double safe = reach * (1.0 + 1e-12) + rounding_;
+  const double off = reach * 1e-12 + rounding_;    // by which distances may be
+  const double safe = reach + off;
   tree_.for_each_near(centre, safe, [&](int t) {
-    if (std::fabs(dot(mesh_.normals[t], centre - mesh_.vertices[mesh_.corners[t][0]])) <= safe &&
-        closest_point(centre, mesh_.triangle(t)).distance <= safe)
-      pieces.push_back(t);
+    const Triangle &triangle = mesh_.triangle(t);
+    if (!(std::fabs(dot(triangle.normal, centre - triangle.corner[0])) <= safe)) return;
+    const double distance = closest_point(centre, triangle).distance;
+    if (distance <= safe) pieces.push_back({t, rounded_down(distance - off)});
   });
-  std::sort(pieces.begin() + static_cast<std::ptrdiff_t>(before), pieces.end());
+  std::sort(pieces.begin() + static_cast<std::ptrdiff_t>(before), pieces.end(),
+            [](const SurfacePiece &a, const SurfacePiece &b) {
+              return a.distance != b.distance ? a.distance < b.distance : a.number < b.number;
+            });
   return pieces.size() > before;
 }
 
-void MeshShape::visit(const Vec3 &centre, double radius, const int *pieces, int count,
+void MeshShape::visit(const Vec3 &centre, double radius, const SurfacePiece *pieces, int count,
                       std::vector<SurfacePoint> &found) const
 {
   // kept, so that no memory is asked for once it is large enough
@@ -67,13 +78,13 @@ void MeshShape::visit(const Vec3 &centre, double radius, const int *pieces, int 
     found.push_back(surface_point(mesh_, touch->triangle, touch->at, centre));
 }
 
-void MeshShape::prefetch(const int *pieces, int count) const
+void MeshShape::prefetch(const SurfacePiece *pieces, int count) const
 {
 #if defined(__GNUC__) || defined(__clang__)
   for (int k = 0; k < count; k++) {
-    __builtin_prefetch(mesh_.boxes.data() + pieces[k]);
-    __builtin_prefetch(mesh_.normals.data() + pieces[k]);
-    __builtin_prefetch(mesh_.corners.data() + pieces[k]);
+    const auto *triangle = reinterpret_cast<const char *>(&mesh_.triangle(pieces[k].number));
+    __builtin_prefetch(triangle);
+    __builtin_prefetch(triangle + 64);
   }
 #else
   (void) pieces;
@@ -94,7 +105,7 @@ bool MeshShape::continues(int face, const SurfacePoint &now, const Vec3 &centre)
   if (dot(surface_point(mesh_, face, at, centre).normal, now.normal) >= continues_cosine_)
     return true;
   // the foot may have left the old triangle by a second edge
-  const double cosine = dot(mesh_.normals[face], now.normal);
+  const double cosine = dot(mesh_.normal(face), now.normal);
   return (at.height < 0.0 ? -cosine : cosine) >= continues_cosine_;
 }
 

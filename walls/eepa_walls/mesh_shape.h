@@ -30,10 +30,11 @@ class MeshShape : public Shape {
   /// \throw std::invalid_argument for another angle
   explicit MeshShape(TriangleMesh mesh, double smooth = default_smooth);
 
-  bool collect(const Vec3 &centre, double reach, std::vector<int> &pieces) const override;
-  void visit(const Vec3 &centre, double radius, const int *pieces, int count,
+  bool collect(const Vec3 &centre, double reach,
+               std::vector<SurfacePiece> &pieces) const override;
+  void visit(const Vec3 &centre, double radius, const SurfacePiece *pieces, int count,
              std::vector<SurfacePoint> &found) const override;
-  void prefetch(const int *pieces, int count) const override;
+  void prefetch(const SurfacePiece *pieces, int count) const override;
   SurfacePoint nearest(int face, const Vec3 &centre) const override;
   /// Whether the place of the old face that is nearest now is in the same direction as the contact, within
   /// the angle of smooth edges: the contact has come along coplanar triangles, over a smooth edge or over

@@ -22,14 +22,15 @@ class Planes final : public Shape {
   {
   }
 
-  bool collect(const Vec3 &centre, double reach, std::vector<int> & /*pieces*/) const override
+  bool collect(const Vec3 &centre, double reach,
+               std::vector<SurfacePiece> & /*pieces*/) const override
   {
     for (const int face : {lower, upper})
       if (has_[face] && distance(face, centre) < reach) return true;
     return false;
   }
 
-  void visit(const Vec3 &centre, double radius, const int * /*pieces*/, int /*count*/,
+  void visit(const Vec3 &centre, double radius, const SurfacePiece * /*pieces*/, int /*count*/,
              std::vector<SurfacePoint> &found) const override
   {
     for (const int face : {lower, upper})

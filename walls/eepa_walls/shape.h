@@ -21,6 +21,12 @@ struct SurfacePoint {
   Vec3 straight = Vec3::Zero();    ///< unit vector along which the normal stays the same, or 0
 };
 
+/// A piece of a surface, such as a triangle, that may touch a sphere.
+struct SurfacePiece {
+  int number;        ///< known to the shape
+  float distance;    ///< at least this far from the centre at which it was collected [length]
+};
+
 /// Velocity of a surface at one point.
 struct SurfaceVelocity {
   Vec3 linear = Vec3::Zero();     ///< [length/time]
@@ -38,18 +44,20 @@ class Shape {
 
   /// Finds what may touch a sphere, as long as its centre stays within a distance of the given one.
   /// \param reach  radius of the sphere and that distance [length]
-  /// \param[in,out] pieces  receives the numbers of pieces of the surface, for visit()
+  /// \param[in,out] pieces  receives pieces of the surface for visit(), the nearest first
   /// \return whether there may be a contact; `pieces` may stay empty even so
-  virtual bool collect(const Vec3 &centre, double reach, std::vector<int> &pieces) const = 0;
+  virtual bool collect(const Vec3 &centre, double reach,
+                       std::vector<SurfacePiece> &pieces) const = 0;
 
   /// Finds all contacts of a sphere: places nearer than its radius.
-  /// \param pieces, count  as collect() gave them for this sphere
+  /// \param pieces, count  as collect() gave them for this sphere; those may be left out that are too far
+  ///     to be touched
   /// \param[in,out] found  receives them, in an order that depends on the sphere and the shape only
-  virtual void visit(const Vec3 &centre, double radius, const int *pieces, int count,
+  virtual void visit(const Vec3 &centre, double radius, const SurfacePiece *pieces, int count,
                      std::vector<SurfacePoint> &found) const = 0;
 
   /// Fetches what visit() will read soon.
-  virtual void prefetch(const int * /*pieces*/, int /*count*/) const {}
+  virtual void prefetch(const SurfacePiece * /*pieces*/, int /*count*/) const {}
 
   /// The point of a face that is nearest to a centre, at any distance.
   virtual SurfacePoint nearest(int face, const Vec3 &centre) const = 0;
@@ -59,6 +67,7 @@ class Shape {
   virtual Vec3 normal_rate(const SurfacePoint &point, const Vec3 & /*centre*/,
                            const Vec3 &velocity) const
   {
+    if (point.curvature == 0.0) return Vec3::Zero();
     const Vec3 along = velocity - dot(velocity, point.normal) * point.normal;
     return point.curvature * (along - dot(along, point.straight) * point.straight);
   }

@@ -77,17 +77,17 @@ namespace {
 
 }    // namespace
 
-TriangleMesh::TriangleMesh(const StlTriangles &triangles, const MeshTransformation &transformation)
+TriangleMesh::TriangleMesh(const StlTriangles &stl, const MeshTransformation &transformation)
 {
   const PointTransformation transform(transformation);
-  weld(triangles, transform);
-  drop_degenerate(triangles.name);
+  weld(stl, transform);
+  drop_degenerate(stl.name);
   drop_duplicates();
   drop_unused_vertices();
   measure();
   find_edges();
   check_orientations();
-  check_stored_normals(triangles, transform);
+  check_stored_normals(stl, transform);
 }
 
 void TriangleMesh::note(MeshDefect kind, int triangle)
@@ -106,15 +106,15 @@ void TriangleMesh::note(MeshDefect kind, int triangle)
     found->triangles.push_back(number);
 }
 
-void TriangleMesh::weld(const StlTriangles &triangles, const PointTransformation &transform)
+void TriangleMesh::weld(const StlTriangles &stl, const PointTransformation &transform)
 {
-  const int n = triangles.count();
-  if (n == 0) refuse(triangles.name, "holds no triangles");
+  const int n = stl.count();
+  if (n == 0) refuse(stl.name, "holds no triangles");
   std::vector<Vec3> points(3 * static_cast<std::size_t>(n));
   for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i] = transform(point_of(&triangles.corners[3 * i]));
+    points[i] = transform(point_of(&stl.corners[3 * i]));
     if (!(points[i].cwiseAbs().maxCoeff() <= largest_coordinate))
-      refuse(triangles.name,
+      refuse(stl.name,
              "triangle " + std::to_string(i / 3 + 1) + " has a corner at " + text_of(points[i]) +
                  ": coordinates must be between -" + text_of(largest_coordinate) + " and " +
                  text_of(largest_coordinate));
@@ -126,7 +126,7 @@ void TriangleMesh::weld(const StlTriangles &triangles, const PointTransformation
   }
   const double diagonal = (high - low).norm();
   if (diagonal > 0.0 && !(diagonal >= least_diagonal))
-    refuse(triangles.name,
+    refuse(stl.name,
            "its bounding box has a diagonal of " + text_of(diagonal) + ": it must be at least " +
                text_of(least_diagonal));
   tolerance = relative_tolerance * diagonal;
@@ -217,23 +217,16 @@ void TriangleMesh::drop_unused_vertices()
 
 void TriangleMesh::measure()
 {
-  normals.resize(corners.size());
+  triangles.resize(corners.size());
   areas.resize(corners.size());
-  boxes.resize(corners.size());
   for (int t = 0; t < count(); ++t) {
     const Three &c = corners[t];
     const Vec3 area = area_vector(vertices[c[0]], vertices[c[1]], vertices[c[2]]);
     const double length = std::sqrt(squared_length(area));
     areas[t] = 0.5 * length;
     // divided, not multiplied by a reciprocal: exactly 1 along an axis
-    normals[t] = Vec3(area[0] / length, area[1] / length, area[2] / length);
-    for (int k = 0; k < 3; ++k) {
-      const double x[] = {vertices[c[0]][k], vertices[c[1]][k], vertices[c[2]][k]};
-      boxes[t].low[k] =
-          std::nextafter(static_cast<float>(std::min({x[0], x[1], x[2]})), -HUGE_VALF);
-      boxes[t].high[k] =
-          std::nextafter(static_cast<float>(std::max({x[0], x[1], x[2]})), HUGE_VALF);
-    }
+    triangles[t] = {{vertices[c[0]], vertices[c[1]], vertices[c[2]]},
+                    Vec3(area[0] / length, area[1] / length, area[2] / length)};
   }
 }
 
@@ -273,8 +266,8 @@ void TriangleMesh::find_edges()
 
 void TriangleMesh::measure_edge(Edge &edge, bool same_direction)
 {
-  const Vec3 &n = normals[edge.first];
-  const Vec3 m = same_direction ? Vec3(-normals[edge.second]) : normals[edge.second];
+  const Vec3 &n = normal(edge.first);
+  const Vec3 m = same_direction ? Vec3(-normal(edge.second)) : normal(edge.second);
   edge.angle = static_cast<float>(std::atan2(cross(n, m).norm(), dot(n, m)));
   const int number = static_cast<int>(edges.size());
   double rounding = 0.0;
@@ -322,13 +315,13 @@ void TriangleMesh::check_orientations()
     if (ways[t] == other_way) note(MeshDefect::opposite, t);
 }
 
-void TriangleMesh::check_stored_normals(const StlTriangles &triangles,
+void TriangleMesh::check_stored_normals(const StlTriangles &stl,
                                         const PointTransformation &transform)
 {
   for (int t = 0; t < count(); ++t) {
-    const float *stored = &triangles.normals[3 * static_cast<std::size_t>(file_number[t] - 1)];
-    const Vec3 normal = transform.rotate(Vec3(stored[0], stored[1], stored[2]));
-    if (dot(normal, normals[t]) < 0.0) note(MeshDefect::stored_normal, t);
+    const float *stored = &stl.normals[3 * static_cast<std::size_t>(file_number[t] - 1)];
+    const Vec3 direction = transform.rotate(Vec3(stored[0], stored[1], stored[2]));
+    if (dot(direction, normal(t)) < 0.0) note(MeshDefect::stored_normal, t);
   }
 }
 

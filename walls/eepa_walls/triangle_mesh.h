@@ -35,30 +35,23 @@ class TriangleMesh {
   /// `file_number` and not by their place in the arrays.
   /// \throw std::invalid_argument naming the file when no triangle with an area is left, or when its
   ///     size or its distance from the origin is out of range
-  explicit TriangleMesh(const StlTriangles &triangles,
+  explicit TriangleMesh(const StlTriangles &stl,
                         const MeshTransformation &transformation = {});
 
   int count() const { return static_cast<int>(corners.size()); }
-  Triangle triangle(int t) const
-  {
-    const Three &c = corners[t];
-    return {{vertices[c[0]], vertices[c[1]], vertices[c[2]]}, normals[t]};
-  }
+  const Triangle &triangle(int t) const { return triangles[t]; }
+  const Vec3 &normal(int t) const { return triangles[t].normal; }
   Vec3 centroid(int t) const
   {
-    const Three &c = corners[t];
-    return (vertices[c[0]] + vertices[c[1]] + vertices[c[2]]) / 3.0;
+    const Vec3 *corner = triangles[t].corner;
+    return (corner[0] + corner[1] + corner[2]) / 3.0;
   }
 
   std::vector<Vec3> vertices;
   std::vector<Three> corners;    ///< vertices of each triangle
-  std::vector<Vec3> normals;     ///< unit vectors, by the order of the corners
+  /// Each triangle whole, so that a contact reads one place of memory; normals by the order of corners.
+  std::vector<Triangle> triangles;
   std::vector<double> areas;
-  /// A box about each triangle, so that those that are far are passed by at little cost.
-  struct Box {
-    float low[3], high[3];    ///< rounded outwards
-  };
-  std::vector<Box> boxes;
   std::vector<int> file_number;    ///< of each triangle, from 1
   std::vector<Edge> edges;
   std::vector<Three> edges_of;    ///< edges of each triangle; edge k leads from corner k to k + 1
@@ -67,7 +60,7 @@ class TriangleMesh {
   std::vector<MeshFinding> findings;
 
  private:
-  void weld(const StlTriangles &triangles, const PointTransformation &transform);
+  void weld(const StlTriangles &stl, const PointTransformation &transform);
   void drop_degenerate(const std::string &name);
   void drop_duplicates();
   void keep(const std::vector<char> &wanted, MeshDefect why);
@@ -76,7 +69,7 @@ class TriangleMesh {
   void find_edges();
   void measure_edge(Edge &edge, bool same_direction);
   void check_orientations();
-  void check_stored_normals(const StlTriangles &triangles, const PointTransformation &transform);
+  void check_stored_normals(const StlTriangles &stl, const PointTransformation &transform);
   void note(MeshDefect kind, int triangle);
 };
 

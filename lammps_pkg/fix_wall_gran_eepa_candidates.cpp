@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// Which particles FixWallGranEepa looks at: those that may touch the wall until the next collection, and of
+// these the ones that may touch it in the present step.
+
+#include "fix_wall_gran_eepa.h"
+
+#include "atom.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using eepa::Vec3;
+
+/// Whether candidates stay for several steps: particles do not grow, and the wall moves by its drive only.
+bool FixWallGranEepa::candidates_stay() const
+{
+  return !radii_may_change && !shape->moves();
+}
+
+/// Whether LAMMPS makes a new neighbour list as soon as an atom has moved by half the skin. It does so only
+/// if it checks all atoms, or makes a new list, in every step.
+bool FixWallGranEepa::lists_bound_motion() const
+{
+  return neighbor->every == 1 && neighbor->delay <= 1 && !neighbor->build_once &&
+      !neighbor->includegroup;
+}
+
+/// Whether candidates must be collected again before this force call.
+bool FixWallGranEepa::candidates_are_old() const
+{
+  if (update->setupflag != 0 || neighbor->ago == 0 || !candidates_stay()) return true;
+  if (!(travelled() <= travel_left)) return true;
+  if (places.empty()) return false;
+  const double most = 0.25 * neighbor->skin * neighbor->skin;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!((Vec3(atom->x[i]) - places[i]).squaredNorm() <= most)) return true;
+  return false;
+}
+
+/// Whether no drive moves the surface, except along itself.
+bool FixWallGranEepa::surface_stays() const
+{
+  const bool drive_stays =
+      motion_args.drive == eepa::WallDrive::still || motion_args.drive == eepa::WallDrive::shear;
+  return drive_stays && !motion_args.rotates;
+}
+
+/// Largest distance by which the surface may have approached any point since the last collection.
+double FixWallGranEepa::travelled() const
+{
+  if (rotation_is_new) return HUGE_VAL;
+  const Vec3 shift = placement.displacement - collected_at.displacement;
+  const double turn = std::fabs(placement.angle - collected_at.angle);
+  if (turn == 0.0) return shape->approach(placement.direction_to_shape(shift));
+  return shift.norm() + turn * rotation_reach;
+}
+
+/// Collects the atoms that can touch a face before the next collection, of any group, because
+/// groups may change. Where candidates do not stay, collects those that touch at present.
+void FixWallGranEepa::collect_candidates()
+{
+  double margin = 0.0;
+  travel_left = 0.0;
+  places.clear();
+  if (candidates_stay()) {
+    // A wall that moves may do so by half the skin. Atoms may move by half the skin from their
+    // positions in a new neighbour list; in an older list they may have done so already, the other
+    // way. Some rounding is added.
+    if (!surface_stays()) travel_left = 0.5 * neighbor->skin;
+    const bool by_lists = lists_bound_motion();
+    const double of_atoms = by_lists && neighbor->ago != 0 ? 1.0 : 0.5;
+    margin = (1.0 + 1e-6) * (travel_left + of_atoms * neighbor->skin);
+    if (!by_lists)
+      for (int i = 0; i < atom->nlocal; i++) places.emplace_back(atom->x[i]);
+  }
+  collected_margin = margin;
+  collected_at = placement;
+  rotation_is_new = false;
+  candidates.clear();
+  for (int i = 0; i < atom->nlocal; i++) {
+    require_slow(i);
+    const Vec3 centre = placement.to_shape(Vec3(atom->x[i]));
+    candidates.add(i, centre, atom->radius[i] + margin, *shape, histories.has_some(i));
+  }
+  if (contact_table && atom->nlocal > 0)
+    std::fill_n(array_atom[0], static_cast<std::size_t>(atom->nlocal) * N_ATOM, 0.0);
+}
+
+/// Finds which candidates have a contact, had one or may have one.
+void FixWallGranEepa::choose_visits()
+{
+  visits.clear();
+  const std::size_t count = candidates.count();
+  for (std::size_t k = 0; k < count; k++) {
+    constexpr std::size_t soon = 8;    // candidates ahead
+    if (k + soon < count) prefetch_place(candidates.particle(k + soon));
+    const int i = candidates.particle(k);
+    if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
+    // a particle that leaves the group in contact must not find its old history when it comes back
+    const bool member = atom->mask[i] & groupbit;
+    if (!member && !keep_ledger) histories.clear(i);
+    bool visit = histories.has_some(i);
+    int pieces = 0;
+    if (member) {
+      // one that stays this near to where it was collected makes no larger steps than its radius
+      if (!(2.0 * collected_margin <= atom->radius[i])) require_slow(i);
+      pieces = candidates.near_pieces(k, placement.to_shape(Vec3(atom->x[i])), atom->radius[i]);
+      // a shape without pieces is asked for each candidate
+      visit |= pieces > 0 || candidates.piece_count(k) == 0 || books_setup();
+    }
+    if (visit) visits.push_back({static_cast<int>(k), pieces});
+  }
+}
+
+// Particles at a wall are scattered over all particles: few of their data are in the cache.
+
+void FixWallGranEepa::prefetch_place(int i) const
+{
+#if defined(__GNUC__) || defined(__clang__)
+  __builtin_prefetch(atom->x[i]);
+  __builtin_prefetch(atom->radius + i);
+  __builtin_prefetch(atom->mask + i);
+#else
+  (void) i;
+#endif
+}
+
+void FixWallGranEepa::prefetch(const Visit &visit) const
+{
+#if defined(__GNUC__) || defined(__clang__)
+  const int i = candidates.particle(visit.candidate);
+  __builtin_prefetch(atom->v[i]);
+  __builtin_prefetch(atom->omega[i]);
+  __builtin_prefetch(atom->f[i], 1);
+  __builtin_prefetch(atom->torque[i], 1);
+  __builtin_prefetch(atom->rmass + i);
+#endif
+  histories.prefetch_contacts(i);
+  shape->prefetch(candidates.pieces(visit.candidate), visit.pieces);
+}
