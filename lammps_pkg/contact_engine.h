@@ -79,8 +79,7 @@ class ContactEngine {
   /// \param contacts  wall_lanes() of them
   /// \param[out] outcomes  as many; the status is not set
   virtual void evaluate_wall_lanes(const eepa::Coefficients &c, double time_step,
-                                   const WallContact *contacts,
-                                   ContactOutcome *outcomes) const = 0;
+                                   const WallContact *contacts, ContactOutcome *outcomes) const = 0;
 
   /// \param contact  overlap > 0
   /// \param first  whether the contact formed in this step

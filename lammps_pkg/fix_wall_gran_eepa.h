@@ -152,16 +152,18 @@ class FixWallGranEepa : public Fix {
   std::array<double, 3> about;    // point of the torque
   double elastic_energy = 0.0;    // of this rank's contacts at the last force call
   std::array<double, N_VECTOR> output_vector;
-  bool output_is_summed = true;    // whether output_vector has the sums of all ranks
+  bool output_is_summed = true;                   // whether output_vector has the sums of all ranks
   std::unique_ptr<class FaceLoads> face_loads;    // of `faces`
 
-  eepa::Candidates candidates;      // all that can touch a face before the next collection
+  eepa::Candidates candidates;    // all that can touch a face before the next collection
   struct Visit {
     int candidate, pieces;    // how many of its pieces, the nearest ones
   };
-  std::vector<Visit> visits;        // of the candidates, those that may be in contact in this force call
+  std::vector<Visit>
+      visits;    // of the candidates, those that may be in contact in this force call
   double collected_margin = 0.0;    // by which a particle may move before the next collection
-  std::vector<eepa::Vec3> places;    // of all atoms then, where neighbour lists do not bound their motion
+  std::vector<eepa::Vec3>
+      places;    // of all atoms then, where neighbour lists do not bound their motion
   eepa::Placement collected_at;     // the placement at the last collection
   bool rotation_is_new = false;     // since the last collection
   double travel_left = 0.0;         // travel of the surface that requires the next collection
@@ -187,10 +189,10 @@ class FixWallGranEepa : public Fix {
   bool ledger_starts = false;    // with the next step: no ledger has booked the one before
   bool after_setup = false;      // whether the last force call was a set-up's
   std::vector<class ComputeGranEepaEnergyAtom *> atom_losses;    // that sum losses by atom
-  double power = 0.0;          // of the wall on this rank's particles, at the last force call
-  bool needs_setup = false;    // a new platen, on which no force call has computed the reaction
-  double platen_force = 0.0;   // on the particles along its axis, at the last force call
-  double other_power = 0.0;    // of its sliding or turning on the particles, at that call
+  double power = 0.0;           // of the wall on this rank's particles, at the last force call
+  bool needs_setup = false;     // a new platen, on which no force call has computed the reaction
+  double platen_force = 0.0;    // on the particles along its axis, at the last force call
+  double other_power = 0.0;     // of its sliding or turning on the particles, at that call
 
   std::unique_ptr<const ContactEngine> engine;    // of the law
   StepRequest request;                            // of the present force call
@@ -252,8 +254,8 @@ class FixWallGranEepa : public Fix {
   void evaluate(const eepa::Body<double> &, const eepa::WallPoint<double> &, const Touch &);
   void finish(const Touch &, const eepa::Body<double> &, const eepa::WallPoint<double> &,
               const ContactOutcome &);
-  void part(int i, const eepa::Body<double> &, const eepa::Vec3 &centre,
-            const eepa::FaceHistory &, bool member);
+  void part(int i, const eepa::Body<double> &, const eepa::Vec3 &centre, const eepa::FaceHistory &,
+            bool member);
   bool got_through(const eepa::Body<double> &, const eepa::FaceHistory &) const;
   void part_after_setup(int candidate, const eepa::Body<double> &, const eepa::Vec3 &centre);
   eepa::WallPoint<double> wall_point(const eepa::SurfacePoint &, const eepa::Body<double> &,

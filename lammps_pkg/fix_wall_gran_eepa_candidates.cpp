@@ -44,8 +44,8 @@ bool FixWallGranEepa::candidates_are_old() const
 /// Whether no drive moves the surface, except along itself.
 bool FixWallGranEepa::surface_stays() const
 {
-  const bool drive_stays =
-      motion_args.drive == eepa::WallDrive::still || motion_args.drive == eepa::WallDrive::shear;
+  const bool drive_stays = motion_args.drive == eepa::WallDrive::still ||
+      motion_args.drive == eepa::WallDrive::shear;
   return drive_stays && !motion_args.rotates;
 }
 

@@ -66,8 +66,7 @@ void FixWallGranEepa::post_force(int vflag)
   if (face_loads && step) face_loads->start_step();
   // what is asked of single contacts is not known of several side by side
   waiting_outcomes.resize(engine->wall_lanes());
-  may_wait =
-      !waiting_outcomes.empty() && step && !keep_ledger && !contact_table && !face_loads;
+  may_wait = !waiting_outcomes.empty() && step && !keep_ledger && !contact_table && !face_loads;
   choose_visits();
   for (std::size_t k = 0; k < visits.size(); k++) {
     constexpr std::size_t soon = 4, later = 8;    // visits ahead

@@ -31,8 +31,7 @@ class WallLanes {
     for (int lane = 0; lane < width; lane++) histories[lane] = contacts_[lane].history;
     const eepa::ContactOf<Lanes> contact = eepa::contact_at_wall(bodies(), walls(), time_step);
     eepa::HistoryOf<Lanes> history = eepa::load_history<Layout>(histories);
-    const eepa::ResponseOf<Lanes> response =
-        ContactLaw::evaluate(c, contact, time_step, history);
+    const eepa::ResponseOf<Lanes> response = ContactLaw::evaluate(c, contact, time_step, history);
     eepa::store_history<Layout>(history, histories);
     const eepa::Wrench<Lanes> wrench = ContactLaw::wrench(response, contact);
     const eepa::LaneRows force(wrench.force), torque(wrench.torque_i);
@@ -57,24 +56,46 @@ class WallLanes {
   /// \param number  of a contact
   template <class Number> EEPA_FUNCTION eepa::Lanes numbers(const Number &number) const
   {
-    return eepa::Lanes([&](auto lane) EEPA_LAMBDA { return number(contacts_[lane]); });
+    return eepa::Lanes([&](auto lane) EEPA_LAMBDA {
+      return number(contacts_[lane]);
+    });
   }
 
   EEPA_FUNCTION eepa::Body<eepa::Lanes> bodies() const
   {
-    return {rows([](const WallContact &w) EEPA_LAMBDA { return w.body.x.data(); }),
-            rows([](const WallContact &w) EEPA_LAMBDA { return w.body.v.data(); }),
-            rows([](const WallContact &w) EEPA_LAMBDA { return w.body.omega.data(); }),
-            numbers([](const WallContact &w) EEPA_LAMBDA { return w.body.radius; }),
-            numbers([](const WallContact &w) EEPA_LAMBDA { return w.body.mass; })};
+    return {rows([](const WallContact &w) EEPA_LAMBDA {
+              return w.body.x.data();
+            }),
+            rows([](const WallContact &w) EEPA_LAMBDA {
+              return w.body.v.data();
+            }),
+            rows([](const WallContact &w) EEPA_LAMBDA {
+              return w.body.omega.data();
+            }),
+            numbers([](const WallContact &w) EEPA_LAMBDA {
+              return w.body.radius;
+            }),
+            numbers([](const WallContact &w) EEPA_LAMBDA {
+              return w.body.mass;
+            })};
   }
   EEPA_FUNCTION eepa::WallPoint<eepa::Lanes> walls() const
   {
-    return {rows([](const WallContact &w) EEPA_LAMBDA { return w.wall.normal.data(); }),
-            numbers([](const WallContact &w) EEPA_LAMBDA { return w.wall.overlap; }),
-            rows([](const WallContact &w) EEPA_LAMBDA { return w.wall.velocity.data(); }),
-            rows([](const WallContact &w) EEPA_LAMBDA { return w.wall.normal_rate.data(); }),
-            rows([](const WallContact &w) EEPA_LAMBDA { return w.wall.angular_velocity.data(); })};
+    return {rows([](const WallContact &w) EEPA_LAMBDA {
+              return w.wall.normal.data();
+            }),
+            numbers([](const WallContact &w) EEPA_LAMBDA {
+              return w.wall.overlap;
+            }),
+            rows([](const WallContact &w) EEPA_LAMBDA {
+              return w.wall.velocity.data();
+            }),
+            rows([](const WallContact &w) EEPA_LAMBDA {
+              return w.wall.normal_rate.data();
+            }),
+            rows([](const WallContact &w) EEPA_LAMBDA {
+              return w.wall.angular_velocity.data();
+            })};
   }
 
   /// Energies are sums over branches that the lanes need not share.

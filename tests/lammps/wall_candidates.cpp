@@ -33,8 +33,9 @@ void open_box(Simulation &simulation, double half, const std::string &boundary)
 {
   const std::string side = exact(-half) + " " + exact(half) + " ";
   simulation("units si\natom_style sphere 1\natom_modify map array\nboundary " + boundary +
-             "\nregion box block " + side + side + side + "\ncreate_box 1 box\ncomm_modify vel yes\n" +
-             "neighbor 0.1 bin\n" + bounded + "\nthermo 1000000");
+             "\nregion box block " + side + side + side +
+             "\ncreate_box 1 box\ncomm_modify vel yes\n" + "neighbor 0.1 bin\n" + bounded +
+             "\nthermo 1000000");
 }
 
 /// Runs without a set-up, in which the wall would visit all particles.

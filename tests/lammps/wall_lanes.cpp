@@ -72,7 +72,8 @@ TEST_P(LanesAtWalls, HaveTheBitsOfOneByOne)
       // sums over particles are in another order
       for (int k = 1; k <= last_output; k++) {
         const double value = one_by_one.fix(fix, k);
-        ASSERT_NEAR(in_lanes.fix(fix, k), value, 1e-12 * (1.0 + std::fabs(value))) << fix << " " << k;
+        ASSERT_NEAR(in_lanes.fix(fix, k), value, 1e-12 * (1.0 + std::fabs(value)))
+            << fix << " " << k;
       }
       const double energy = one_by_one.thermo(std::string("f_") + fix);
       ASSERT_NEAR(in_lanes.thermo(std::string("f_") + fix), energy, 1e-13 * (1.0 + energy)) << fix;

@@ -30,8 +30,7 @@ class MeshShape : public Shape {
   /// \throw std::invalid_argument for another angle
   explicit MeshShape(TriangleMesh mesh, double smooth = default_smooth);
 
-  bool collect(const Vec3 &centre, double reach,
-               std::vector<SurfacePiece> &pieces) const override;
+  bool collect(const Vec3 &centre, double reach, std::vector<SurfacePiece> &pieces) const override;
   void visit(const Vec3 &centre, double radius, const SurfacePiece *pieces, int count,
              std::vector<SurfacePoint> &found) const override;
   void prefetch(const SurfacePiece *pieces, int count) const override;

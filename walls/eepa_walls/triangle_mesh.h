@@ -35,8 +35,7 @@ class TriangleMesh {
   /// `file_number` and not by their place in the arrays.
   /// \throw std::invalid_argument naming the file when no triangle with an area is left, or when its
   ///     size or its distance from the origin is out of range
-  explicit TriangleMesh(const StlTriangles &stl,
-                        const MeshTransformation &transformation = {});
+  explicit TriangleMesh(const StlTriangles &stl, const MeshTransformation &transformation = {});
 
   int count() const { return static_cast<int>(corners.size()); }
   const Triangle &triangle(int t) const { return triangles[t]; }
