@@ -25,6 +25,7 @@ ComputeGranEepaContacts::ComputeGranEepaContacts(LAMMPS *lmp, int narg, char **a
   extlist = new int[N_QUANTITIES];
   std::fill_n(extlist, static_cast<int>(N_QUANTITIES), 0);
   std::fill_n(extlist, SLIDING + 1, 1);
+  extlist[WALL_CONTACTS] = 1;
   vector = new double[N_QUANTITIES];
 }
 
@@ -64,5 +65,7 @@ void ComputeGranEepaContacts::compute_vector()
   vector[SLIDING] = total.sliding;
   vector[COORDINATION_NUMBER] = particles > 0.0 ? total.ends / particles : 0.0;
   vector[MAX_OVERLAP_RATIO] = total.max_overlap_ratio;
+  vector[WALL_CONTACTS] = 0.0;
+  for (auto *wall : find_eepa_walls(modify)) vector[WALL_CONTACTS] += wall->contacts();
   vector[MEAN_OVERLAP_RATIO] = total.contacts > 0.0 ? overlap_sum / total.contacts : 0.0;
 }

@@ -12,7 +12,7 @@ ComputeStyle(gran/eepa/contacts,ComputeGranEepaContacts);
 
 namespace LAMMPS_NS {
 
-/// Counts the contacts of pair_style gran/eepa by their status in the last force call.
+/// Counts the contacts of pair_style gran/eepa by their status in the last force call, and those with walls.
 class ComputeGranEepaContacts : public Compute {
  public:
   ComputeGranEepaContacts(class LAMMPS *, int, char **);
@@ -30,6 +30,7 @@ class ComputeGranEepaContacts : public Compute {
     COORDINATION_NUMBER,
     MAX_OVERLAP_RATIO,
     MEAN_OVERLAP_RATIO,
+    WALL_CONTACTS,
     N_QUANTITIES
   };
 };

@@ -65,6 +65,8 @@ class FixWallGranEepa : public Fix {
   /// The largest stable time step of the contacts with this wall, those of announced particles
   /// included. Collective.
   TimeStepBound largest_time_step(const std::vector<AnnouncedParticles> &announced = {});
+  /// Number of contacts at the last force call. Collective.
+  double contacts() { return compute_vector(CONTACTS); }
   /// This rank's energies; all zero unless a compute gran/eepa/energy existed at the last init.
   const EnergyLedger &energy_ledger() const { return ledger; }
 

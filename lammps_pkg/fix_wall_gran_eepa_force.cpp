@@ -282,7 +282,7 @@ void FixWallGranEepa::finish(const Touch &touch, const eepa::Body<double> &body,
   }
   sums.contacts += 1.0;
   if (contact_table) tabulate(i, body, wall, outcome);
-  if (vflag_either) {
+  if (evflag) {    // Fix::v_setup() does not set vflag_either
     const Vec3 arm = point.distance * wall.normal;
     const Vec3 &f = wrench.force;
     double virial_of_i[6] = {arm[0] * f[0], arm[1] * f[1], arm[2] * f[2],

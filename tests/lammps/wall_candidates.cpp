@@ -4,6 +4,7 @@
 // and particles the bits are those of a run that visits every particle in every step.
 
 #include "simulation.h"
+#include "triangles.h"
 
 #include <gtest/gtest.h>
 
@@ -71,13 +72,13 @@ std::vector<Sphere> gas(double speed)
   return spheres;
 }
 
-void open_gas(Simulation &simulation, const Gas &gas_of, const std::string &neighbours)
+void open_gas(Simulation &simulation, const Gas &gas_of, const std::string &walls,
+              const std::string &neighbours)
 {
   simulation("atom_modify sort 0 0.0");    // the sum of forces on a platen depends on their order
   open_box(simulation, 5.0, "f f f");
   simulation.create(gas(gas_of.speed));
-  const std::string walls = gas_of.walls,
-                    law = "linear coeff 1e4 3e4 5e3 -0.1 0.5 restitution 0.8 "
+  const std::string law = "linear coeff 1e4 3e4 5e3 -0.1 0.5 restitution 0.8 "
                           "rolling sds 1e3 1 0.1 wall ";
   simulation(neighbours + "\npair_style zero 1.0\npair_coeff * *\ntimestep 1e-4\n" +
              "fix integrate all nve/sphere\nfix box all wall/gran/eepa " + law +
@@ -85,15 +86,27 @@ void open_gas(Simulation &simulation, const Gas &gas_of, const std::string &neig
              "yplane -2.6 2.6\nfix wall all wall/gran/eepa " + law + walls + " contacts");
 }
 
-class GasBetweenWalls : public testing::TestWithParam<Gas> {};
+class GasBetweenWalls : public testing::TestWithParam<Gas> {
+ protected:
+  const ScratchFile mesh_{".stl"};
+  void SetUp() override { write_stl(mesh_.name(), box(2.9, 11)); }
+
+  std::string walls() const
+  {
+    std::string text = GetParam().walls;
+    if (const auto at = text.find("MESH"); at != std::string::npos)
+      text.replace(at, 4, mesh_.name());
+    return text;
+  }
+};
 
 TEST_P(GasBetweenWalls, IsThatOfAWallThatLooksAtAll)
 {
   Simulation listed, all[4];
-  open_gas(listed, GetParam(), bounded);
+  open_gas(listed, GetParam(), walls(), bounded);
   listed.run(1);
   for (int k = 0; k < 4; k++) {
-    open_gas(all[k], GetParam(), others[k]);
+    open_gas(all[k], GetParam(), walls(), others[k]);
     all[k].run(1);
   }
   double touching = 0.0, most = 0.0;
@@ -129,6 +142,11 @@ const Gas gases[] = {
     {"cylinder", "zcylinder 3.6 velocity 9 2 0", 3.0, 50},
     {"cylinder_slow_particles", "zcylinder 3.6 velocity 9 2 0", 0.01, 50},
     {"cylinder_at_rest", "zcylinder 3.4 shear x 5", 10.0, 60},
+    {"mesh", "mesh MESH", 20.0, 100},
+    {"mesh_coming", "mesh MESH offset 0 0 6 velocity 0 0 -8", 3.0, 100},
+    {"mesh_turning", "mesh MESH offset 0 0 5.6 rotate 0 0 5.6 0.3 0 1 5", 3.0, 60},
+    {"mesh_slow_particles", "mesh MESH rotate 0 0 0 0.1 0 1 9", 0.01, 50},
+    {"mesh_falling", "mesh MESH offset 0 0 6 load z -2000 mass 20 damping 10", 3.0, 53},
 };
 INSTANTIATE_TEST_SUITE_P(Motions, GasBetweenWalls, testing::ValuesIn(gases), [](const auto &info) {
   return std::string(info.param.name);
