@@ -87,6 +87,25 @@ INSTANTIATE_TEST_SUITE_P(Intruders, Through, testing::ValuesIn(intruders), [](co
   return std::string(info.param.name);
 });
 
+// One so small that it jumps over the wall without a contact and without a new neighbour list.
+TEST(SmallParticle, IsSeenBetweenNeighbourLists)
+{
+  const ScratchFile file(".stl");
+  write_stl(file.name(), box(3.0, 4));
+  Sphere small;
+  small.x = Vec3(2.878, 0.3, 0.2);
+  small.v = Vec3(480, 0, 0);
+  small.radius = 0.02;
+  Simulation simulation;
+  open(simulation, {{Vec3(-1, -1, 0)}, small}, 1e-4);
+  simulation(soft + "mesh " + file.name());
+  simulation.run(2);
+  EXPECT_EQ(simulation.fix("w", CONTACTS), 0.0);
+  EXPECT_TRUE(refuses(
+      simulation, "run 1 pre no",
+      "fix w wall/gran/eepa: the center of atom 2 is through the mesh .* at step 3, at 3.022"));
+}
+
 // Through the open ends of a tube, past its rims, and on both sides of a plate in turn.
 TEST(NotThrough, AreThoseWhoGoAround)
 {
