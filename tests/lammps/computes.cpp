@@ -53,7 +53,8 @@ TEST_P(ContactsByHand, AgreeWithTheCompute)
     expected[5] = ends / members;
     expected[7] /= expected[0];
     const auto counted = simulation.compute_vector(group ? "odd" : "all");
-    ASSERT_EQ(counted.size(), 8u);
+    ASSERT_EQ(counted.size(), 9u);
+    EXPECT_EQ(counted[8], 0.0);    // there are no walls
     for (int k = 0; k < 5; k++)
       EXPECT_EQ(counted[k], expected[k]) << k << (group ? " odd" : " all");
     for (int k = 5; k < 8; k++) EXPECT_NEAR(counted[k], expected[k], 1e-12) << k;
