@@ -103,5 +103,5 @@ def table(rows: Sequence[Dict]) -> str:
             f"{min(row['cpu_percent'] for row in own):.1f}"])
     return text_table(header, lines) + (
         f"\n{rows[0]['atoms']} spheres at rest in a cube of {rows[0]['triangles']} triangles, "
-        f"{rows[0]['steps']} steps on one core, a new neighbour list every 50.\nThe share is that of "
+        f"{rows[0]['steps']} steps on one core.\nThe share is that of "
         "the rounds' own, with its quartiles; memory is the largest of the whole program.\n")
