@@ -26,21 +26,21 @@ from machines.running import Run  # noqa: E402
 
 SHAPE = {"radius": 0.010, "height": 0.026, "collar": 0.024, "gap": 0.0001, "length": 0.004, "cup": 0.0,
          "facets": 72}
-DREF, NREF = 1.0e-3, 6000
+DIAMETERS, NREF = [1.0e-3, 1.5e-3, 2.0e-3], 6000    # the finest first; particles of that
 
 
 def cases(arguments: argparse.Namespace) -> List[Run]:
-    diameters = [1.0e-3, 1.5e-3, 2.0e-3] if arguments.full else [2.0e-3]
+    diameters = DIAMETERS if arguments.full else DIAMETERS[-1:]
     modes = ("yes", "no") if arguments.full else ("yes",)
-    fast = {} if arguments.full else {"approach": 0.2, "release": 0.05, "eject": 0.3, "hold": 5e-3}
+    fast = {} if arguments.full else {"approach": 0.4, "release": 0.1, "eject": 0.5, "hold": 5e-3}
     runs = []
     for d in diameters:
         for scaled in modes:
-            if scaled == "no" and d == DREF:
+            if scaled == "no" and d == DIAMETERS[0]:
                 continue
-            for seed in range(1, (arguments.seeds or (3 if arguments.full else 1)) + 1):
+            for seed in range(1, (arguments.seeds or (2 if arguments.full else 1)) + 1):
                 runs.append(Run(f"d{1e3 * d:g}mm_{'scaled' if scaled == 'yes' else 'unscaled'}_seed{seed}",
-                                HERE / "in.die", {"d": d, "scaled": scaled, "seed": 1000 + seed,
+                                HERE / "in.die", {"d": d, "dfine": DIAMETERS[0], "scaled": scaled, "seed": 1000 + seed,
                                                   "nref": NREF, "radius": SHAPE["radius"],
                                                   "height": SHAPE["height"], "collar": SHAPE["collar"],
                                                   "stl": arguments.out, **fast}))
@@ -49,7 +49,7 @@ def cases(arguments: argparse.Namespace) -> List[Run]:
 
 def analyse(launcher: running.Launcher, run: Run) -> compaction.Tablet:
     d = float(run.variables["d"])
-    volume = round(NREF * (DREF / d)**3) * np.pi / 6.0 * d**3
+    volume = round(NREF * (DIAMETERS[0] / d)**3) * np.pi / 6.0 * d**3
     table = tables.read_table(launcher.folder(run) / "die.csv")
     return compaction.tablet(table, volume, np.pi * SHAPE["radius"]**2)
 

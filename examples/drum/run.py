@@ -27,22 +27,22 @@ from machines.running import Run  # noqa: E402
 
 SHAPE = {"radius": 0.03, "length": 0.02, "lift": 0.003, "base": 0.004, "top": 0.003, "lifters": 8,
          "facets": 96}
-DREF = 1.0e-3
+DIAMETERS = [1.5e-3, 2.1e-3, 3.0e-3]    # the finest first
 
 
 def cases(arguments: argparse.Namespace) -> List[Run]:
-    diameters = [1.0e-3, 1.5e-3, 2.0e-3] if arguments.full else [2.0e-3]
-    seeds = arguments.seeds or (3 if arguments.full else 1)
-    turns = {"warm": 1.0, "turns": 2.0} if arguments.full else {"warm": 0.2, "turns": 0.15}
+    diameters = DIAMETERS if arguments.full else DIAMETERS[-1:]
+    seeds = arguments.seeds or (2 if arguments.full else 1)
+    turns = {"warm": 0.35, "turns": 0.65} if arguments.full else {"warm": 0.25, "turns": 0.25}
     runs = []
     for d in diameters:
         for scaled in ("yes", "no"):
-            if scaled == "no" and d == DREF:
+            if scaled == "no" and d == DIAMETERS[0]:
                 continue
             for seed in range(1, seeds + 1):
                 runs.append(Run(f"d{1e3 * d:g}mm_{'scaled' if scaled == 'yes' else 'unscaled'}_seed{seed}",
                                 HERE / "in.drum",
-                                {"d": d, "scaled": scaled, "seed": seed, "stl": arguments.out, **turns}))
+                                {"d": d, "dfine": DIAMETERS[0], "scaled": scaled, "seed": seed, "stl": arguments.out, **turns}))
     return runs
 
 

@@ -28,24 +28,24 @@ from machines.running import Run  # noqa: E402
 SHAPE = {"inner": 0.016, "outer": 0.032, "tooth": 0.003, "share": 0.15, "gap": 0.0003}
 MESH = {**SHAPE, "height": 0.05, "teeth": 20, "facets": 120}
 LEVELS = (0.25, 0.5, 0.75)
-DREF = 1.0e-3
+DIAMETERS = [1.5e-3, 2.0e-3, 3.0e-3]    # the finest first
 
 
 def cases(arguments: argparse.Namespace) -> List[Tuple[str, Run, List[Run]]]:
     """Of each seed the name of its case, the run of preshear, and those of shear at lower stresses."""
-    diameters = [1.0e-3, 1.5e-3, 2.0e-3] if arguments.full else [2.5e-3]
+    diameters = DIAMETERS if arguments.full else DIAMETERS[-1:]
     modes = ("yes", "no") if arguments.full else ("yes",)
-    seeds = arguments.seeds or (3 if arguments.full else 1)
-    strains = (({"preshear": 1.0}, {"shearing": 0.2}) if arguments.full else
-               ({"preshear": 0.4, "rate": 3.0}, {"shearing": 0.08, "rate": 3.0}))
+    seeds = arguments.seeds or (2 if arguments.full else 1)
+    strains = (({"preshear": 1.2, "rate": 2.0}, {"shearing": 0.15, "rate": 2.0}) if arguments.full else
+               ({"preshear": 0.6, "rate": 3.0}, {"shearing": 0.1, "rate": 3.0}))
     tests = []
     for d in diameters:
         for scaled in modes:
-            if scaled == "no" and d == DREF:
+            if scaled == "no" and d == DIAMETERS[0]:
                 continue
             name = f"d{1e3 * d:g}mm_{'scaled' if scaled == 'yes' else 'unscaled'}"
             for seed in range(1, seeds + 1):
-                common = {"d": d, "scaled": scaled, "stl": arguments.out, "dtfactor": 0.9,
+                common = {"d": d, "dfine": DIAMETERS[0], "scaled": scaled, "stl": arguments.out, "dtfactor": 0.9,
                           "consolidation": arguments.consolidation, **SHAPE}
                 first = Run(f"{name}_seed{seed}_preshear", HERE / "in.preshear",
                             {**common, "seed": seed, **strains[0]})

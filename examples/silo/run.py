@@ -27,7 +27,8 @@ from machines.running import Run  # noqa: E402
 
 BEADS = {"radius": 0.1, "orifice": 0.03, "cone": 0.07, "height": 0.3}
 POWDER = {"radius": 0.02, "cone": 0.02, "height": 0.07}
-DREF, NREF = 1.0e-3, 40000
+# diameters of the powder, the finest first, and how many particles of 1 mm would fill the silo
+DIAMETERS, NREF = [1.5e-3, 2.1e-3, 3.0e-3], 40000
 BULK_DENSITY = {"beads": 0.6 * 2500.0, "powder": 0.55 * 2000.0}
 
 
@@ -46,24 +47,24 @@ def beads(arguments: argparse.Namespace) -> List[Run]:
 
 
 def powder(arguments: argparse.Namespace) -> List[Run]:
-    diameters = [1.0e-3, 1.5e-3, 2.0e-3] if arguments.full else [2.0e-3]
-    orifices = [0.003, 0.004, 0.005, 0.006, 0.008] if arguments.full else [0.005]
-    time = 1.5 if arguments.full else 0.5
+    diameters = DIAMETERS if arguments.full else DIAMETERS[-1:]
+    orifices = [0.006, 0.008, 0.010] if arguments.full else [0.008]
+    time = 1.2 if arguments.full else 0.5
     runs = []
     for orifice in orifices:
         shape = {**POWDER, "orifice": orifice}
         folder = meshes_of(arguments.out, shape, 60)
         for d in diameters:
             for scaled in ("yes", "no"):
-                if scaled == "no" and d == DREF:
+                if scaled == "no" and d == DIAMETERS[0]:
                     continue
                 mode = "scaled" if scaled == "yes" else "unscaled"
-                for seed in range(1, (arguments.seeds or (3 if arguments.full else 1)) + 1):
+                for seed in range(1, (arguments.seeds or (2 if arguments.full else 1)) + 1):
                     runs.append(Run(
                         f"powder_orifice{2e3 * orifice:g}mm_d{1e3 * d:g}mm_{mode}_seed{seed}",
                         HERE / "in.silo", {
-                            "material": "powder", "scaled": scaled, "d": d,
-                            "n": round(NREF * (DREF / d)**3), "seed": seed, "shots": 10, "settle": 0.15,
+                            "material": "powder", "scaled": scaled, "d": d, "dfine": DIAMETERS[0],
+                            "n": round(NREF * (1.0e-3 / d)**3), "seed": seed, "shots": 10, "settle": 0.15,
                             "time": time, "stl": folder, **shape}))
     return runs
 
