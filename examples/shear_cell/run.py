@@ -88,7 +88,7 @@ def report(launcher: running.Launcher, tests) -> None:
     (launcher.out / "table.txt").write_text(text, encoding="utf-8")
     print(f"\n{text}")
     draw(launcher, tests)
-    picture(launcher, tests[-1][1])
+    picture(launcher, tests[0][1])
 
 
 def draw(launcher: running.Launcher, tests) -> None:
