@@ -63,6 +63,13 @@ def left_at(time: Sequence[float], inside: Sequence[float], at: Sequence[float] 
     return found
 
 
+def emptied(time: Sequence[float], inside: Sequence[float], left: float = 0.002) -> float:
+    """When this part of the content is left (s); not a number where it never is."""
+    time, inside = np.asarray(time, dtype=float), np.asarray(inside, dtype=float)
+    empty = np.flatnonzero(inside <= left * inside[0])
+    return float(time[empty[0]]) if len(empty) else float("nan")
+
+
 def beverloo(orifice: float, d: float, bulk_density: float, c: float = 0.58, k: float = 1.4,
              gravity: float = 9.81) -> float:
     """Mass a second by Beverloo's law, C rho sqrt(g) (D - k d)^2.5, for a flat bottom; a cone gives more.

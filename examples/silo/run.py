@@ -94,15 +94,18 @@ def report(launcher: running.Launcher, runs: Sequence[Run], what: str) -> None:
                tables.with_error([1e3 * m for m in flowing], ".4g"), f"{np.mean(flowing) / law:.3f}",
                f"{sum(f.blocked for f in found)} of {len(found)}"]
         if published:
-            row += [f"{number:.0f}" for number in discharge.left_at(curves[0].time, curves[0].inside)]
+            end = discharge.emptied(curves[0].time, curves[0].inside)
+            row += [f"{end:.2f}", f"{curves[0].inside[0] / end:.4g}",
+                    *(f"{number:.0f}" for number in discharge.left_at(curves[0].time, curves[0].inside))]
         rows.append(row + [f"{np.mean([launcher.seconds(run) for run in group]):.0f}"])
     head = ["case", "seeds", "particles/s", "error in a run", "g/s", "over Beverloo", "blocked"]
     if published:
-        head += [f"left at {t:g} s" for t in discharge.TIMES]
+        head += ["empty after, s", "mean, particles/s", *(f"left at {t:g} s" for t in discharge.TIMES)]
         for code, left in discharge.LEFT.items():
-            rows.append([f"published: {code}", "", "", "", "", "", "", *map(str, left), ""])
-        rows.append(["published: mean of all codes", "", f"{discharge.PUBLISHED_RATE:.4g}"]
-                    + [""] * (len(head) - 2))
+            slope = (left[0] - left[3]) / (discharge.TIMES[3] - discharge.TIMES[0])
+            rows.append([f"published: {code}", "", f"{slope:.4g} from 0.5 to 3 s", *[""] * 6, *map(str, left), ""])
+        rows.append(["published: mean of all codes", *[""] * 6, "4.2 to 4.4", f"{discharge.PUBLISHED_RATE:.4g}",
+                     *[""] * (len(discharge.TIMES) + 1)])
     text = tables.text_table([*head, "s a run"], rows)
     (launcher.out / f"{what}.txt").write_text(text, encoding="utf-8")
     print(f"\n{text}")
