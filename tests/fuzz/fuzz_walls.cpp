@@ -39,7 +39,8 @@ void require_message(const std::invalid_argument &error)
   for (const char c : message) REQUIRE(c >= ' ' && c <= '~', c, 0);
 }
 
-void touch(const MeshShape &shape, const Vec3 &centre, double radius, std::vector<int> &all)
+void touch(const MeshShape &shape, const Vec3 &centre, double radius,
+           const std::vector<SurfacePiece> &all)
 {
   const TriangleMesh &mesh = shape.mesh();
   std::vector<SurfacePiece> pieces;
@@ -49,7 +50,8 @@ void touch(const MeshShape &shape, const Vec3 &centre, double radius, std::vecto
   shape.visit(centre, radius, all.data(), static_cast<int>(all.size()), whole);
   REQUIRE(found.size() == whole.size(), found.size(), whole.size());
   double least = radius;
-  for (const int t : all) least = std::min(least, shape.nearest(t, centre).distance);
+  for (const SurfacePiece &piece : all)
+    least = std::min(least, shape.nearest(piece.number, centre).distance);
   REQUIRE(found.empty() == !(least < radius), least, radius);
   double nearest = radius;
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -85,8 +87,8 @@ void use(const StlTriangles &triangles)
       REQUIRE(mesh.areas[t] > 0.0, mesh.areas[t], 0);
       REQUIRE(std::fabs(mesh.normal(t).norm() - 1.0) < 1e-12, mesh.normal(t).norm(), 1);
     }
-    std::vector<int> all(mesh.count());
-    for (int t = 0; t < mesh.count(); ++t) all[t] = t;
+    std::vector<SurfacePiece> all(mesh.count());
+    for (int t = 0; t < mesh.count(); ++t) all[t] = {t, 0.0f};
     const double diagonal = (mesh.high - mesh.low).norm();
     Vec3 last = mesh.high;
     for (int t = 0; t < std::min(mesh.count(), 8); ++t) {
