@@ -65,7 +65,7 @@ void ComputeGranEepaContacts::compute_vector()
   vector[SLIDING] = total.sliding;
   vector[COORDINATION_NUMBER] = particles > 0.0 ? total.ends / particles : 0.0;
   vector[MAX_OVERLAP_RATIO] = total.max_overlap_ratio;
+  vector[MEAN_OVERLAP_RATIO] = total.contacts > 0.0 ? overlap_sum / total.contacts : 0.0;
   vector[WALL_CONTACTS] = 0.0;
   for (auto *wall : find_eepa_walls(modify)) vector[WALL_CONTACTS] += wall->contacts();
-  vector[MEAN_OVERLAP_RATIO] = total.contacts > 0.0 ? overlap_sum / total.contacts : 0.0;
 }

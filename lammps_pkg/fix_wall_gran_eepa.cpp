@@ -82,6 +82,7 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
   }
   engine = make_contact_engine(style.settings, parameters.rolling, parameters.twisting);
   history_size = engine->history_size();
+  waiting_outcomes.resize(engine->wall_lanes());
   maxexchange = 1;
   dt = update->dt;
   if (typed.face_interval > 0) {

@@ -65,7 +65,6 @@ void FixWallGranEepa::post_force(int vflag)
   if (keep_ledger) atom_losses = ComputeGranEepaEnergyAtom::find(modify);
   if (face_loads && step) face_loads->start_step();
   // what is asked of single contacts is not known of several side by side
-  waiting_outcomes.resize(engine->wall_lanes());
   may_wait = !waiting_outcomes.empty() && step && !keep_ledger && !contact_table && !face_loads;
   choose_visits();
   for (std::size_t k = 0; k < visits.size(); k++) {

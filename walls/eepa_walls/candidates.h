@@ -44,8 +44,6 @@ class Candidates {
 
   std::size_t count() const { return particles_.size(); }
   int particle(std::size_t k) const { return particles_[k]; }
-  /// Where the centre of a particle was when it was collected, in the shape's frame.
-  const Vec3 &centre(std::size_t k) const { return centres_[k]; }
 
   const SurfacePiece *pieces(std::size_t k) const { return pieces_.data() + first_piece_[k]; }
   /// 0 for all particles of a shape that has no pieces
@@ -64,15 +62,6 @@ class Candidates {
     int near = 0;
     while (near < count && piece[near].distance <= most) ++near;
     return near;
-  }
-
-  void prefetch(std::size_t k) const
-  {
-#if defined(__GNUC__) || defined(__clang__)
-    __builtin_prefetch(pieces(k));
-#else
-    (void) k;
-#endif
   }
 
   double memory_usage() const
