@@ -102,6 +102,26 @@ inline std::vector<Corners> prism(int facets, double radius, double half, bool e
   return triangles;
 }
 
+/// A prism with ends, and four lifters along it: plates from its wall inwards.
+inline std::vector<Corners> drum(int facets)
+{
+  auto triangles = prism(facets, 3.3, 3.0, true);
+  for (int k = 0; k < 4; k++) {
+    const double angle = 0.3 + 0.5 * pi * k;
+    const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
+    add_rectangle(triangles, 2.4 * out - Vec3(0, 0, 2.9), 0.88 * out, Vec3(0, 0, 5.8), 3, false, 1);
+  }
+  return triangles;
+}
+
+/// A text with each `word` of it replaced, such as the place of a file's name in a command.
+inline std::string with(std::string text, const std::string &word, const std::string &value)
+{
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + value.size()))
+    text.replace(at, word.size(), value);
+  return text;
+}
+
 }    // namespace eepa_test
 
 #endif

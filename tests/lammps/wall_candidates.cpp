@@ -93,10 +93,7 @@ class GasBetweenWalls : public testing::TestWithParam<Gas> {
 
   std::string walls() const
   {
-    std::string text = GetParam().walls;
-    if (const auto at = text.find("MESH"); at != std::string::npos)
-      text.replace(at, 4, mesh_.name());
-    return text;
+    return with(GetParam().walls, "MESH", mesh_.name());
   }
 };
 

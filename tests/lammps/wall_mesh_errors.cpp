@@ -18,11 +18,6 @@ const std::string facet =
     "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
     "endloop\nendfacet\n";
 
-std::string replaced(std::string text, const std::string &what, const std::string &with)
-{
-  return text.replace(text.find(what), what.size(), with);
-}
-
 struct Mistake {
   const char *name;
   std::string content;
@@ -39,9 +34,7 @@ TEST_P(MeshMistake, IsNamed)
   simulation.open_box(5.0);
   simulation.create({{Vec3(0, 0, 3)}});
   simulation("pair_style zero 1.0\npair_coeff * *\nregion ball sphere 0 0 0 2");
-  std::string words = GetParam().words;
-  if (const auto at = words.find("FILE"); at != std::string::npos)
-    words.replace(at, 4, file.name());
+  const std::string words = with(GetParam().words, "FILE", file.name());
   EXPECT_TRUE(refuses(
       simulation, "fix w all wall/gran/eepa linear coeff 1e4 1e4 0 0 0.5 wall " + words + "\nrun 0",
       GetParam().message));
@@ -57,9 +50,9 @@ const Mistake mistakes[] = {
      "fix w .*stl: line [0-9]+ has the end of the file"},
     {"short_binary", std::string(80, 'b') + std::string("\3\0\0\0", 4) + std::string(77, '\0'),
      "mesh FILE", "fix w .*has 161 bytes where a binary STL file of 3 triangles, .* has 234"},
-    {"broken_number", replaced(good, "1 0 0", "1 0 x"), "mesh FILE", "fix w .*stl: line 5 .*'x'"},
-    {"not_a_number", replaced(good, "1 0 0", "1 nan 0"), "mesh FILE", "fix w .*stl: line 5 .*nan"},
-    {"no_area", replaced(good, "0 1 0", "2 0 0"), "mesh FILE",
+    {"broken_number", with(good, "1 0 0", "1 0 x"), "mesh FILE", "fix w .*stl: line 5 .*'x'"},
+    {"not_a_number", with(good, "1 0 0", "1 nan 0"), "mesh FILE", "fix w .*stl: line 5 .*nan"},
+    {"no_area", with(good, "0 1 0", "2 0 0"), "mesh FILE",
      "fix w .*stl: its only triangle has no area"},
     {"scale_0", good, "mesh FILE scale 0",
      "fix w wall/gran/eepa: .*scale.* 0 is not allowed: it must be > 0"},

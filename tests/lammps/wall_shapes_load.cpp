@@ -18,7 +18,7 @@ using namespace eepa_test;
 namespace {
 
 constexpr int POSITION = 4, VELOCITY = 5, CONTACTS = 6, LOAD_FORCE = 13, LOAD_KINETIC_ENERGY = 14,
-              LOAD_WORK = 15, LOAD_DISSIPATED = 16, ANGLE = 20;
+              LOAD_WORK = 15, LOAD_DISSIPATED = 16;
 const std::string law =
     " all wall/gran/eepa linear coeff 1e4 2e4 5e3 -0.1 0.5 restitution 0.7 rolling sds 1e3 0.1 0.1 "
     "wall ";
@@ -98,25 +98,15 @@ class LedgerOfMachines : public testing::TestWithParam<Machine> {
   {
     write_stl(cup_.name(), prism(48, 3.3, 3.0, true));
     write_stl(lid_.name(), prism(48, 3.1, 0.5, true));
-    // lifters: plates from the wall of the drum inwards
-    auto drum = prism(48, 3.3, 3.0, true);
-    for (int k = 0; k < 4; k++) {
-      const double angle = 0.3 + 0.5 * pi * k;
-      const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
-      add_rectangle(drum, 2.4 * out - Vec3(0, 0, 2.9), 0.88 * out, Vec3(0, 0, 5.8), 3, false, 1);
-    }
-    write_stl(drum_.name(), drum);
+    write_stl(drum_.name(), drum(48));
   }
 
   /// \return the energy that is missing at the end, and the work of the walls
   std::pair<double, double> run(double time_step) const
   {
-    std::string walls = GetParam().walls;
+    std::string walls = with(GetParam().walls, "LAW", law.substr(1));
     for (const auto &[name, file] : {std::pair{"CUP", &cup_}, {"LID", &lid_}, {"DRUM", &drum_}})
-      for (auto at = walls.find(name); at != std::string::npos; at = walls.find(name))
-        walls.replace(at, std::string(name).size(), file->name());
-    for (auto at = walls.find("LAW"); at != std::string::npos; at = walls.find("LAW"))
-      walls.replace(at, 3, law.substr(1));
+      walls = with(walls, name, file->name());
     Packing packing;
     packing.side = 3;
     packing.spacing = 1.1;
