@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import Callable, Dict, List, Mapping, Optional, Sequence
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "examples" / "scale_collapse"), str(HERE.parent / "examples")]
+sys.path[:0] = [str(HERE), str(HERE.parent / "examples" / "scale_collapse"),
+                str(HERE.parent / "examples")]
 
 try:
     import numpy  # noqa: F401
@@ -31,7 +32,6 @@ from bench import (cases, cost, diameters, instructions, kernel, machine,  # noq
 from bench.lammps import Program, has_pair_style, usable_cores  # noqa: E402
 from bench.lammps_log import BadLog  # noqa: E402
 from bench.output import write_csv  # noqa: E402
-from machines.meshes import write_stl  # noqa: E402
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,7 @@ def run_types(s: Session) -> None:
 def run_walls(s: Session) -> None:
     """100,000 spheres in a cube of 100,000 triangles, beside planes and no walls"""
     size = {"cells": 12, "cuts": 23, "steps": 50} if s.quick else {"cells": 47, "cuts": 91, "steps": 100}
-    rows = walls.measure(s.program, rounds=s.rounds, work=s.work, write_stl=write_stl, **size)
+    rows = walls.measure(s.program, rounds=s.rounds, work=s.work, **size)
     s.write("walls", rows, walls.table(rows))
 
 

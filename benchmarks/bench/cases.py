@@ -95,15 +95,25 @@ def packing(program: Program, work: Path, particles: int,
 
     :param variables: of in.packing
     """
-    infile = HERE / "in.packing"
+    return start_file(program, work, "packing", particles, {"n": str(particles), **variables})
+
+
+def start_file(program: Program, work: Path, what: str, count: int, variables: Mapping[str, str]) -> Path:
+    """What an in-file makes, kept for later runs.
+
+    :param what: such as packing, of in.packing
+    :param count: which tells start files of different sizes apart
+    :param variables: of the in-file, without `out`
+    """
+    infile = HERE / f"in.{what}"
     key = hashlib.sha256(infile.read_bytes() + repr(sorted(variables.items())).encode()
                          ).hexdigest()[:12]
-    data = work / f"packing_{particles}_{key}.data"
+    data = work / f"{what}_{count}_{key}.data"
     if not data.is_file():
-        print(f"  packing {particles} particles, once, into {data}", flush=True)
-        folder = work / f"packing_{particles}"
+        print(f"  {what} {count} particles, once, into {data}", flush=True)
+        folder = work / f"{what}_{count}"
         folder.mkdir(parents=True, exist_ok=True)
-        partial = folder / "packing.data"
-        run_lammps(program, infile, folder, {"n": str(particles), "out": str(partial), **variables})
+        partial = folder / f"{what}.data"
+        run_lammps(program, infile, folder, {"out": str(partial), **variables})
         partial.rename(data)
     return data

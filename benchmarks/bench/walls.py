@@ -2,12 +2,14 @@
 """What walls cost: spheres at rest in a cube of triangles, of planes, and without walls in turn."""
 from __future__ import annotations
 
-import hashlib
 from pathlib import Path
 from typing import Dict, List, Sequence
 
 import numpy as np
 
+from machines.meshes import write_stl
+
+from .cases import start_file
 from .lammps import Program, run_lammps
 from .lammps_log import read_log
 from .output import text_table
@@ -37,29 +39,13 @@ def cube(side: float, cuts: int) -> np.ndarray:
     return np.concatenate(faces)
 
 
-def filling(program: Program, work: Path, cells: int) -> Path:
-    """The start file of in.container, made if it is not there."""
-    infile = HERE / "in.filling"
-    key = hashlib.sha256(infile.read_bytes()).hexdigest()[:12]
-    data = work / f"filling_{cells}_{key}.data"
-    if not data.is_file():
-        print(f"  filling a cube with {cells**3} spheres, once, into {data}", flush=True)
-        folder = work / f"filling_{cells}"
-        folder.mkdir(parents=True, exist_ok=True)
-        partial = folder / "filling.data"
-        run_lammps(program, infile, folder, {"cells": str(cells), "out": str(partial)})
-        partial.rename(data)
-    return data
-
-
-def measure(program: Program, cells: int, cuts: int, steps: int, rounds: int, work: Path,
-            write_stl) -> List[Dict]:
+def measure(program: Program, cells: int, cuts: int, steps: int, rounds: int, work: Path) -> List[Dict]:
     """One row a run: none, planes, mesh, none, ...
 
+    :param cells: spheres along an edge of the cube before they fall
     :param cuts: of each edge of the cube: 12 cuts^2 triangles
-    :param write_stl: called with a path and triangles
     """
-    data = filling(program, work, cells)
+    data = start_file(program, work, "filling", cells**3, {"cells": str(cells)})
     folder = work / "run"
     folder.mkdir(parents=True, exist_ok=True)
     stl = folder / "cube.stl"

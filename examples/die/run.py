@@ -40,7 +40,8 @@ def cases(arguments: argparse.Namespace) -> List[Run]:
                 continue
             for seed in range(1, (arguments.seeds or (2 if arguments.full else 1)) + 1):
                 runs.append(Run(f"d{1e3 * d:g}mm_{'scaled' if scaled == 'yes' else 'unscaled'}_seed{seed}",
-                                HERE / "in.die", {"d": d, "dfine": DIAMETERS[0], "scaled": scaled, "seed": 1000 + seed,
+                                HERE / "in.die", {"d": d, "dfine": DIAMETERS[0],
+                                                  "scaled": scaled, "seed": 1000 + seed,
                                                   "nref": NREF, "radius": SHAPE["radius"],
                                                   "height": SHAPE["height"], "collar": SHAPE["collar"],
                                                   "stl": arguments.out, **fast}))

@@ -42,7 +42,8 @@ def cases(arguments: argparse.Namespace) -> List[Run]:
             for seed in range(1, seeds + 1):
                 runs.append(Run(f"d{1e3 * d:g}mm_{'scaled' if scaled == 'yes' else 'unscaled'}_seed{seed}",
                                 HERE / "in.drum",
-                                {"d": d, "dfine": DIAMETERS[0], "scaled": scaled, "seed": seed, "stl": arguments.out, **turns}))
+                                {"d": d, "dfine": DIAMETERS[0], "scaled": scaled, "seed": seed,
+                                 "stl": arguments.out, **turns}))
     return runs
 
 

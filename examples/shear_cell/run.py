@@ -45,8 +45,8 @@ def cases(arguments: argparse.Namespace) -> List[Tuple[str, Run, List[Run]]]:
                 continue
             name = f"d{1e3 * d:g}mm_{'scaled' if scaled == 'yes' else 'unscaled'}"
             for seed in range(1, seeds + 1):
-                common = {"d": d, "dfine": DIAMETERS[0], "scaled": scaled, "stl": arguments.out, "dtfactor": 0.9,
-                          "consolidation": arguments.consolidation, **SHAPE}
+                common = {"d": d, "dfine": DIAMETERS[0], "scaled": scaled, "stl": arguments.out,
+                          "dtfactor": 0.9, "consolidation": arguments.consolidation, **SHAPE}
                 first = Run(f"{name}_seed{seed}_preshear", HERE / "in.preshear",
                             {**common, "seed": seed, **strains[0]})
                 others = [Run(f"{name}_seed{seed}_shear{level:g}", HERE / "in.shear",

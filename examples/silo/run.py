@@ -103,7 +103,8 @@ def report(launcher: running.Launcher, runs: Sequence[Run], what: str) -> None:
         head += ["empty after, s", "mean, particles/s", *(f"left at {t:g} s" for t in discharge.TIMES)]
         for code, left in discharge.LEFT.items():
             slope = (left[0] - left[3]) / (discharge.TIMES[3] - discharge.TIMES[0])
-            rows.append([f"published: {code}", "", f"{slope:.4g} from 0.5 to 3 s", *[""] * 6, *map(str, left), ""])
+            rows.append([f"published: {code}", "", f"{slope:.4g} from 0.5 to 3 s", *[""] * 6,
+                         *map(str, left), ""])
         rows.append(["published: mean of all codes", *[""] * 6, "4.2 to 4.4", f"{discharge.PUBLISHED_RATE:.4g}",
                      *[""] * (len(discharge.TIMES) + 1)])
     text = tables.text_table([*head, "s a run"], rows)

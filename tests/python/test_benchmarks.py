@@ -12,10 +12,13 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "examples" / "scale_collapse")]
+sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "examples" / "scale_collapse"), str(ROOT / "examples")]
 
 from bench import (cases, cost, instructions, kernel, lammps, lammps_log,  # noqa: E402
-                   many_particles, many_types, memory, output, report, scaling, statistics, styles)
+                   many_particles, many_types, memory, output, report, scaling, statistics, styles,
+                   walls)
+
+from machines import meshes  # noqa: E402
 
 LMP = os.environ.get("EEPA_LMP")
 
@@ -109,6 +112,20 @@ class Statistics(unittest.TestCase):
                 for case, times in (("small", (80.0, 120.0, 90.0)), ("large", (100.0, 160.0, 100.0)))
                 for k, ns in enumerate(times)]
         self.assertAlmostEqual(many_particles.loss(rows, "s", "small", "large").value, 0.2)
+
+    def test_share_of_walls_is_free_of_the_noise_of_a_run(self):
+        # the rest 8 s and other fixes 2 s, walls 2.5 s more; runs are slower by any factor
+        rows = [{"walls": name, "round": k, "loop_s": factor * (10.0 + extra), "modify_s": factor * (2.0 + extra)}
+                for k, factors in enumerate(((1.0, 1.7), (1.3, 0.9))) for name, extra, factor in
+                (("none", 0.0, factors[0]), ("mesh", 2.5, factors[1]))]
+        self.assertAlmostEqual(walls.share(rows, "mesh").value, 0.2)
+        self.assertAlmostEqual(walls.share(rows, "none").value, 0.0)
+
+    def test_cube_is_closed_and_outside_out(self):
+        triangles = walls.cube(2.0, 3)
+        self.assertEqual(len(triangles), 12 * 9)
+        self.assertAlmostEqual(meshes.volume(triangles), 8.0)
+        self.assertAlmostEqual(meshes.area(triangles), 24.0)
 
     def test_memory_of_a_further_particle(self):
         self.assertEqual(memory.per_particle({"peak_kb": 100, "atoms": 1000},
@@ -240,6 +257,17 @@ class InLammps(unittest.TestCase):
         self.assertEqual([row["types"] for row in rows], list(many_types.COUNTS))
         self.assertEqual(len({row["contacts"] for row in rows}), 1)
         self.assertIn("1.000 [1.000, 1.000]", many_types.table(rows))
+
+    def test_walls_beside_planes_and_none(self):
+        rows = walls.measure(self.program, 6, 5, 30, 1, self.work)
+        self.assertEqual([row["walls"] for row in rows], list(walls.WALLS))
+        none, planes, mesh = rows
+        self.assertEqual({row["atoms"] for row in rows}, {216})
+        self.assertEqual(none["wall_contacts"], 0.0)
+        self.assertGreater(planes["wall_contacts"], 36.0)
+        # the same particles, as far as 30 steps keep rounding small
+        self.assertAlmostEqual(mesh["wall_contacts"], planes["wall_contacts"], delta=2)
+        self.assertIn("216 spheres", walls.table(rows))
 
     def test_known_and_unknown_pair_styles(self):
         self.assertTrue(lammps.has_pair_style(self.program, self.work, "gran/eepa"))
