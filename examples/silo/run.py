@@ -29,6 +29,7 @@ BEADS = {"radius": 0.1, "orifice": 0.03, "cone": 0.07, "height": 0.3}
 POWDER = {"radius": 0.02, "cone": 0.02, "height": 0.07}
 # diameters of the powder, the finest first, and how many particles of 1 mm would fill the silo
 DIAMETERS, NREF = [1.5e-3, 2.1e-3, 3.0e-3], 40000
+ORIFICES = [12.0, 16.0, 20.0]    #: of the powder's silo [mm]
 BULK_DENSITY = {"beads": 0.6 * 2500.0, "powder": 0.55 * 2000.0}
 
 
@@ -48,7 +49,7 @@ def beads(arguments: argparse.Namespace) -> List[Run]:
 
 def powder(arguments: argparse.Namespace) -> List[Run]:
     diameters = DIAMETERS if arguments.full else DIAMETERS[-1:]
-    orifices = [0.006, 0.008, 0.010] if arguments.full else [0.008]
+    orifices = [0.5e-3 * mm for mm in arguments.orifice or (ORIFICES if arguments.full else ORIFICES[1:2])]
     time = 1.2 if arguments.full else 0.5
     runs = []
     for orifice in orifices:
@@ -138,6 +139,9 @@ def draw(launcher: running.Launcher, runs: Sequence[Run], what: str) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
+    if any(not 0.0 < mm < 2e3 * POWDER["radius"] for mm in arguments.orifice or []):
+        raise running.RunFailed(f"--orifice is {arguments.orifice}, allowed are diameters in mm above 0 and "
+                                f"below {2e3 * POWDER['radius']:g}, that of the silo")
     launcher = running.launcher(arguments)
     arguments.out = launcher.out
     runs = beads(arguments) if arguments.what == "beads" else powder(arguments)
@@ -150,6 +154,8 @@ def main(words: Optional[Sequence[str]] = None) -> int:
     parser.add_argument("what", choices=["beads", "powder"], nargs="?", default="beads")
     parser.add_argument("--young", type=float, default=None, metavar="E",
                         help="Young's modulus of the beads in Pa (default: 1e9, quick 2e6)")
+    parser.add_argument("--orifice", type=float, nargs="+", default=None, metavar="D",
+                        help="diameters of the powder's orifice in mm (default: 12 16 20, quick 16)")
     arguments = parser.parse_args(words)
     return running.exit_status("run.py", lambda: run(arguments))
 
