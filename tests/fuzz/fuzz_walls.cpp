@@ -99,7 +99,7 @@ void use(const StlTriangles &triangles)
         shape.is_between(last, centre);
         last = centre;
       }
-      touch(shape, mesh.vertices[mesh.corners[t][0]], radius, all);
+      touch(shape, mesh.vertices[mesh.facets[t].corners[0]], radius, all);
     }
   } catch (const std::invalid_argument &error) {
     require_message(error);

@@ -24,7 +24,7 @@ void expect_plane(const MeshShape &shape, int positions, unsigned seed)
     if (i % 4 == 0) {
       // exactly over a vertex or an edge
       const TriangleMesh &mesh = shape.mesh();
-      const auto &corners = mesh.corners[random.below(mesh.count())];
+      const auto &corners = mesh.facets[random.below(mesh.count())].corners;
       const Vec3 &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]];
       x = a + (i % 8 == 0 ? 0.0 : random.between(0, 1)) * (b - a);
     }

@@ -64,7 +64,7 @@ TEST(Mesh, OfABoxIsClosed)
     EXPECT_GT(mesh.normal(t).dot(mesh.centroid(t) - Vec3(0.5, 1, 1.5)), 0.0);
     // each edge of a triangle has its corners
     for (int k = 0; k < 3; ++k) {
-      const TriangleMesh::Edge &edge = mesh.edges[mesh.edges_of[t][k]];
+      const TriangleMesh::Edge &edge = mesh.edges[mesh.facets[t].edges[k]];
       EXPECT_TRUE(edge.first == t || edge.second == t);
     }
   }
@@ -87,16 +87,16 @@ TEST(Mesh, HasTheSameEdgesAsAListOfPairs)
     std::set<std::pair<int, int>> pairs;
     for (int t = 0; t < mesh.count(); ++t)
       for (int k = 0; k < 3; ++k) {
-        const int a = mesh.corners[t][k], b = mesh.corners[t][(k + 1) % 3];
+        const int a = mesh.facets[t].corners[k], b = mesh.facets[t].corners[(k + 1) % 3];
         pairs.insert({std::min(a, b), std::max(a, b)});
         // all triangles of this edge, counted
         std::vector<int> owners;
         for (int u = 0; u < mesh.count(); ++u) {
-          const auto &c = mesh.corners[u];
+          const auto &c = mesh.facets[u].corners;
           if (std::count(c.begin(), c.end(), a) && std::count(c.begin(), c.end(), b))
             owners.push_back(u);
         }
-        const TriangleMesh::Edge &edge = mesh.edges[mesh.edges_of[t][k]];
+        const TriangleMesh::Edge &edge = mesh.edges[mesh.facets[t].edges[k]];
         ASSERT_EQ(edge.count, static_cast<int>(owners.size()));
         ASSERT_EQ(edge.first, owners[0]);
         ASSERT_EQ(edge.second, owners.size() == 2 ? owners[1] : -1);

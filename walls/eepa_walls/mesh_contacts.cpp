@@ -46,9 +46,9 @@ namespace {
     const int number = touch.at.number;
     switch (touch.at.feature) {
       case Feature::corner:
-        return has(mesh.corners[triangle], mesh.corners[touch.triangle][number]);
+        return has(mesh.facets[triangle].corners, mesh.facets[touch.triangle].corners[number]);
       case Feature::edge:
-        return has(mesh.edges_of[triangle], mesh.edges_of[touch.triangle][number]);
+        return has(mesh.facets[triangle].edges, mesh.facets[touch.triangle].edges[number]);
       default:
         return false;
     }
@@ -78,9 +78,8 @@ SurfacePoint surface_point(const TriangleMesh &mesh, int triangle, const Triangl
   point.normal = (centre - at.point) / at.distance;
   point.curvature = 1.0 / at.distance;
   if (at.feature == Feature::edge) {
-    const TriangleMesh::Three &corner = mesh.corners[triangle];
-    const Vec3 along =
-        mesh.vertices[corner[(at.number + 1) % 3]] - mesh.vertices[corner[at.number]];
+    const Vec3 *corner = mesh.triangle(triangle).corner;
+    const Vec3 along = corner[(at.number + 1) % 3] - corner[at.number];
     point.straight = along / std::sqrt(squared_length(along));
   }
   return point;
@@ -93,6 +92,10 @@ void MeshContacts::find(const TriangleMesh &mesh, const std::vector<char> &smoot
   found_.clear();
   touch(mesh, centre, radius, pieces, count);
   if (touched_.empty()) return;
+  if (touched_.size() == 1) {
+    found_.push_back(touched_.data());
+    return;
+  }
   keep_minima(mesh);
   if (found_.size() > 1) drop_hidden_minima(mesh);
   if (found_.size() > 1) join_smooth(mesh, smooth_edges, smooth_cosine, centre);
@@ -133,8 +136,8 @@ void MeshContacts::keep_minima(const TriangleMesh &mesh)
   }
   places_.clear(6 * touched_.size());
   for (const Touch &touch : touched_) {
-    const TriangleMesh::Three &corners = mesh.corners[touch.triangle];
-    const TriangleMesh::Three &edges = mesh.edges_of[touch.triangle];
+    const TriangleMesh::Three &corners = mesh.facets[touch.triangle].corners;
+    const TriangleMesh::Three &edges = mesh.facets[touch.triangle].edges;
     const int number = touch.at.number;
     const bool nearer_there =
         (touch.at.feature == Feature::corner && places_.contains(key_of_vertex(corners[number]))) ||
@@ -174,7 +177,7 @@ void MeshContacts::join_smooth(const TriangleMesh &mesh, const std::vector<char>
   std::iota(parents_.begin(), parents_.end(), 0);
   places_.clear(3 * touched_.size());
   for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
-    for (const int edge : mesh.edges_of[touched_[i].triangle])
+    for (const int edge : mesh.facets[touched_[i].triangle].edges)
       if (smooth_edges[edge]) join(parents_, i, places_.insert(key_of_edge(edge), i));
 
   const auto patch_of = [&](const Touch *touch) {

@@ -21,12 +21,6 @@ namespace {
   /// A contact that goes on may turn by this at least, so that it passes a nearly flat edge.
   constexpr double least_turn = 1.0 * degree;
 
-  float rounded_down(double x)
-  {
-    const float near = static_cast<float>(x);
-    return near > x ? std::nextafter(near, -HUGE_VALF) : near;
-  }
-
   double checked(double smooth)
   {
     if (!(smooth >= 0.0 && smooth <= 90.0))
@@ -59,7 +53,7 @@ bool MeshShape::collect(const Vec3 &centre, double reach, std::vector<SurfacePie
     const Triangle &triangle = mesh_.triangle(t);
     if (!(std::fabs(dot(triangle.normal, centre - triangle.corner[0])) <= safe)) return;
     const double distance = closest_point(centre, triangle).distance;
-    if (distance <= safe) pieces.push_back({t, rounded_down(distance - off)});
+    if (distance <= safe) pieces.push_back({t, piece_distance(distance, off)});
   });
   std::sort(pieces.begin() + static_cast<std::ptrdiff_t>(before), pieces.end(),
             [](const SurfacePiece &a, const SurfacePiece &b) {
@@ -71,6 +65,12 @@ bool MeshShape::collect(const Vec3 &centre, double reach, std::vector<SurfacePie
 void MeshShape::visit(const Vec3 &centre, double radius, const SurfacePiece *pieces, int count,
                       std::vector<SurfacePoint> &found) const
 {
+  if (count == 1) {    // mostly, and nothing to compare it with
+    const int t = pieces[0].number;
+    const TrianglePoint at = closest_point(centre, mesh_.triangle(t));
+    if (at.distance < radius) found.push_back(surface_point(mesh_, t, at, centre));
+    return;
+  }
   // kept, so that no memory is asked for once it is large enough
   thread_local MeshContacts contacts;
   contacts.find(mesh_, smooth_edges_, smooth_cosine_, centre, radius, pieces, count);
@@ -82,9 +82,9 @@ void MeshShape::prefetch(const SurfacePiece *pieces, int count) const
 {
 #if defined(__GNUC__) || defined(__clang__)
   for (int k = 0; k < count; k++) {
-    const auto *triangle = reinterpret_cast<const char *>(&mesh_.triangle(pieces[k].number));
-    __builtin_prefetch(triangle);
-    __builtin_prefetch(triangle + 64);
+    const auto *facet = reinterpret_cast<const char *>(&mesh_.facets[pieces[k].number]);
+    __builtin_prefetch(facet);
+    __builtin_prefetch(facet + 64);
   }
 #else
   (void) pieces;
@@ -135,8 +135,8 @@ double MeshShape::check() const
   const auto add = [&hash](std::uint64_t value) {
     hash = (hash ^ value) * 0x100000001b3u;
   };
-  for (const TriangleMesh::Three &corners : mesh_.corners)
-    for (const int vertex : corners) add(static_cast<std::uint64_t>(vertex));
+  for (const TriangleMesh::Facet &facet : mesh_.facets)
+    for (const int vertex : facet.corners) add(static_cast<std::uint64_t>(vertex));
   for (const int number : mesh_.file_number) add(static_cast<std::uint64_t>(number));
   const auto add_number = [&add](double number) {
     std::uint64_t bits_of_number;

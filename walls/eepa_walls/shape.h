@@ -4,6 +4,7 @@
 
 #include <eepa/vector.h>
 
+#include <cmath>
 #include <vector>
 
 namespace eepa {
@@ -26,6 +27,15 @@ struct SurfacePiece {
   int number;        ///< known to the shape
   float distance;    ///< at least this far from the centre at which it was collected [length]
 };
+
+/// A distance as a piece has it, for one that may be larger than the true one by rounding.
+/// \param rounding  [length]
+inline float piece_distance(double distance, double rounding)
+{
+  const double least = distance - rounding;
+  const auto near = static_cast<float>(least);
+  return near > least ? std::nextafter(near, -HUGE_VALF) : near;
+}
 
 /// Velocity of a surface at one point.
 struct SurfaceVelocity {

@@ -131,12 +131,13 @@ void TriangleMesh::weld(const StlTriangles &stl, const PointTransformation &tran
                text_of(least_diagonal));
   tolerance = relative_tolerance * diagonal;
 
-  corners.resize(n);
+  facets.resize(n);
   file_number.resize(n);
   std::iota(file_number.begin(), file_number.end(), 1);
   if (!(diagonal > 0.0)) return;    // all triangles are a point, and will be dropped
   VertexGrid grid(low, tolerance, n, vertices);
-  for (std::size_t i = 0; i < points.size(); ++i) corners[i / 3][i % 3] = grid.number_of(points[i]);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    facets[i / 3].corners[i % 3] = grid.number_of(points[i]);
 }
 
 void TriangleMesh::keep(const std::vector<char> &wanted, MeshDefect why)
@@ -147,11 +148,11 @@ void TriangleMesh::keep(const std::vector<char> &wanted, MeshDefect why)
       note(why, t);
       continue;
     }
-    corners[kept] = corners[t];
+    facets[kept].corners = facets[t].corners;
     file_number[kept] = file_number[t];
     ++kept;
   }
-  corners.resize(kept);
+  facets.resize(kept);
   file_number.resize(kept);
 }
 
@@ -159,7 +160,7 @@ void TriangleMesh::drop_degenerate(const std::string &name)
 {
   std::vector<char> wanted(count(), 0);
   for (int t = 0; t < count(); ++t) {
-    const Three &c = corners[t];
+    const Three &c = facets[t].corners;
     if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
     const Vec3 &p = vertices[c[0]], &q = vertices[c[1]], &r = vertices[c[2]];
     const double longest =
@@ -169,7 +170,7 @@ void TriangleMesh::drop_degenerate(const std::string &name)
   }
   const int all = count();
   keep(wanted, MeshDefect::degenerate);
-  if (corners.empty())
+  if (facets.empty())
     refuse(name,
            all == 1 ? "its only triangle has no area"
                     : "none of its " + std::to_string(all) + " triangles has an area");
@@ -179,10 +180,10 @@ void TriangleMesh::drop_duplicates()
 {
   std::vector<int> lowest(count());
   for (int t = 0; t < count(); ++t)
-    lowest[t] = *std::min_element(corners[t].begin(), corners[t].end());
+    lowest[t] = *std::min_element(facets[t].corners.begin(), facets[t].corners.end());
   ByLowestVertex sorted(static_cast<int>(vertices.size()), lowest);
   for (int t = 0; t < count(); ++t) {
-    Three c = corners[t];
+    Three c = facets[t].corners;
     std::sort(c.begin(), c.end());
     sorted.put(c[0], {c[1], c[2], t});
   }
@@ -196,8 +197,8 @@ void TriangleMesh::drop_duplicates()
 void TriangleMesh::drop_unused_vertices()
 {
   std::vector<int> number(vertices.size(), -1);
-  for (const Three &c : corners)
-    for (const int v : c) number[v] = 0;
+  for (const Facet &facet : facets)
+    for (const int v : facet.corners) number[v] = 0;
   int kept = 0;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     if (number[v] < 0) continue;
@@ -206,8 +207,8 @@ void TriangleMesh::drop_unused_vertices()
   }
   vertices.resize(kept);
   vertices.shrink_to_fit();
-  for (Three &c : corners)
-    for (int &v : c) v = number[v];
+  for (Facet &facet : facets)
+    for (int &v : facet.corners) v = number[v];
   low = high = vertices[0];
   for (const Vec3 &vertex : vertices) {
     low = low.cwiseMin(vertex);
@@ -217,37 +218,35 @@ void TriangleMesh::drop_unused_vertices()
 
 void TriangleMesh::measure()
 {
-  triangles.resize(corners.size());
-  areas.resize(corners.size());
+  areas.resize(facets.size());
   for (int t = 0; t < count(); ++t) {
-    const Three &c = corners[t];
+    const Three &c = facets[t].corners;
     const Vec3 area = area_vector(vertices[c[0]], vertices[c[1]], vertices[c[2]]);
     const double length = std::sqrt(squared_length(area));
     areas[t] = 0.5 * length;
     // divided, not multiplied by a reciprocal: exactly 1 along an axis
-    triangles[t] = {{vertices[c[0]], vertices[c[1]], vertices[c[2]]},
-                    Vec3(area[0] / length, area[1] / length, area[2] / length)};
+    facets[t].triangle = {{vertices[c[0]], vertices[c[1]], vertices[c[2]]},
+                          Vec3(area[0] / length, area[1] / length, area[2] / length)};
   }
 }
 
 void TriangleMesh::find_edges()
 {
-  std::vector<int> lowest(3 * corners.size());
+  std::vector<int> lowest(3 * facets.size());
   for (std::size_t i = 0; i < lowest.size(); ++i) {
-    const Three &c = corners[i / 3];
+    const Three &c = facets[i / 3].corners;
     lowest[i] = std::min(c[i % 3], c[(i + 1) % 3]);
   }
   ByLowestVertex sorted(static_cast<int>(vertices.size()), lowest);
   for (std::size_t i = 0; i < lowest.size(); ++i) {
-    const Three &c = corners[i / 3];
+    const Three &c = facets[i / 3].corners;
     sorted.put(lowest[i], {std::max(c[i % 3], c[(i + 1) % 3]), -1, static_cast<int>(i)});
   }
-  edges_of.resize(corners.size());
-  edges.reserve(3 * corners.size() / 2 + 1);
+  edges.reserve(3 * facets.size() / 2 + 1);
   sorted.for_each_group([&](const Entry *first, const Entry *last) {
     const int number = static_cast<int>(edges.size());
     for (const Entry *entry = first; entry != last; ++entry)
-      edges_of[entry->place / 3][entry->place % 3] = number;
+      facets[entry->place / 3].edges[entry->place % 3] = number;
     Edge edge;
     edge.first = first->place / 3;
     edge.count = static_cast<int>(last - first);
@@ -258,7 +257,9 @@ void TriangleMesh::find_edges()
     } else {
       const int other = first[1].place;
       edge.second = other / 3;
-      measure_edge(edge, corners[edge.first][first->place % 3] == corners[edge.second][other % 3]);
+      measure_edge(edge,
+                   facets[edge.first].corners[first->place % 3] ==
+                       facets[edge.second].corners[other % 3]);
     }
     edges.push_back(edge);
   });
@@ -273,8 +274,9 @@ void TriangleMesh::measure_edge(Edge &edge, bool same_direction)
   double rounding = 0.0;
   for (const int t : {edge.first, edge.second}) {
     int k = 0;
-    while (edges_of[t][k] != number) ++k;
-    const double length = (vertices[corners[t][k]] - vertices[corners[t][(k + 1) % 3]]).norm();
+    while (facets[t].edges[k] != number) ++k;
+    const double length =
+        (vertices[facets[t].corners[k]] - vertices[facets[t].corners[(k + 1) % 3]]).norm();
     rounding += tolerance * length / (2.0 * areas[t]);
   }
   edge.rounding = static_cast<float>(std::min(rounding, M_PI));
@@ -284,7 +286,7 @@ void TriangleMesh::measure_edge(Edge &edge, bool same_direction)
 void TriangleMesh::check_orientations()
 {
   enum : char { unknown, one_way, other_way };
-  std::vector<char> ways(corners.size(), unknown);
+  std::vector<char> ways(facets.size(), unknown);
   std::vector<int> part;    // triangles that hang together
   for (int start = 0; start < count(); ++start) {
     if (ways[start] != unknown) continue;
@@ -295,15 +297,15 @@ void TriangleMesh::check_orientations()
       const int t = part[i];
       others += ways[t] == other_way;
       for (int k = 0; k < 3; ++k) {
-        const int number = edges_of[t][k];
+        const int number = facets[t].edges[k];
         const Edge &edge = edges[number];
         if (edge.count != 2) continue;
         const int neighbour = edge.first == t ? edge.second : edge.first;
         if (ways[neighbour] != unknown) continue;
         int m = 0;
-        while (edges_of[neighbour][m] != number) ++m;
+        while (facets[neighbour].edges[m] != number) ++m;
         // neighbours that are the same way round pass their edge in opposite directions
-        const bool same = corners[t][k] != corners[neighbour][m];
+        const bool same = facets[t].corners[k] != facets[neighbour].corners[m];
         ways[neighbour] = same == (ways[t] == one_way) ? one_way : other_way;
         part.push_back(neighbour);
       }

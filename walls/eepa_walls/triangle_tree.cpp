@@ -11,7 +11,7 @@ TriangleTree::TriangleTree(const TriangleMesh &mesh)
   std::iota(triangles.begin(), triangles.end(), 0);
   std::vector<Box> boxes(mesh.count());
   for (const int t : triangles) {
-    for (const int v : mesh.corners[t]) boxes[t].extend(mesh.vertices[v]);
+    for (const int v : mesh.facets[t].corners) boxes[t].extend(mesh.vertices[v]);
     all_.extend(boxes[t]);
   }
   tree_.init(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
