@@ -28,7 +28,8 @@ class ContactMasses : protected Pointers {
   /// Mass of one atom, for callers that need few.
   double mass(int i) const
   {
-    if (atom->mask[i] & freeze_groupbit_) return std::numeric_limits<double>::infinity();
+    if (freeze_groupbit_ != 0 && (atom->mask[i] & freeze_groupbit_))
+      return std::numeric_limits<double>::infinity();
     // masses of rigid bodies are not known before the first force call
     const bool body = !fixes_rigid_.empty() && !body_mass_.empty() && body_mass_[i] > 0.0;
     return body ? body_mass_[i] : atom->rmass[i];

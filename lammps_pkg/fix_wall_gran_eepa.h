@@ -239,7 +239,8 @@ class FixWallGranEepa : public Fix {
   bool surface_stays() const;
   double travelled() const;
   void collect_candidates();
-  void choose_visits();
+  bool must_be_met(std::size_t candidate, int &pieces);
+  void meet_candidates();
   void prefetch_place(int i) const;
   void prefetch(const Visit &visit) const;
 
@@ -264,7 +265,9 @@ class FixWallGranEepa : public Fix {
                                      const eepa::Vec3 &centre) const;
   void tabulate(int i, const eepa::Body<double> &, const eepa::WallPoint<double> &,
                 const ContactOutcome &);
-  eepa::Body<double> body_of(int i) const;
+  /// Of the fix's group; group 0 is all.
+  bool is_member(int i) const { return igroup == 0 || (atom->mask[i] & groupbit); }
+  eepa::Body<double> body_of(int candidate) const;
   void require_slow(int i) const;
   void stop_at_overlap(int i, int face, double overlap) const;
   void stop_behind_wall(int i) const;

@@ -5,6 +5,8 @@
 
 #include "fix_wall_gran_eepa.h"
 
+#include "atom_rows.h"
+
 #include "atom.h"
 #include "neighbor.h"
 #include "update.h"
@@ -84,61 +86,67 @@ void FixWallGranEepa::collect_candidates()
   for (int i = 0; i < atom->nlocal; i++) {
     require_slow(i);
     const Vec3 centre = placement.to_shape(Vec3(atom->x[i]));
-    candidates.add(i, centre, atom->radius[i] + margin, *shape, histories.has_some(i));
+    candidates.add(i, centre, atom->radius[i], margin, *shape, histories.has_some(i));
   }
+  histories.arrange(candidates.particles());
   if (contact_table && atom->nlocal > 0)
     std::fill_n(array_atom[0], static_cast<std::size_t>(atom->nlocal) * N_ATOM, 0.0);
 }
 
-/// Finds which candidates have a contact, had one or may have one.
-void FixWallGranEepa::choose_visits()
+/// Whether a candidate has a contact, had one or may have one.
+bool FixWallGranEepa::must_be_met(std::size_t candidate, int &pieces)
 {
-  visits.clear();
-  const std::size_t count = candidates.count();
-  for (std::size_t k = 0; k < count; k++) {
-    constexpr std::size_t soon = 8;    // candidates ahead
-    if (k + soon < count) prefetch_place(candidates.particle(k + soon));
-    const int i = candidates.particle(k);
-    if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
-    // a particle that leaves the group in contact must not find its old history when it comes back
-    const bool member = atom->mask[i] & groupbit;
-    if (!member && !keep_ledger) histories.clear(i);
-    bool visit = histories.has_some(i);
-    int pieces = 0;
-    if (member) {
-      // one that stays this near to where it was collected makes no larger steps than its radius
-      if (!(2.0 * collected_margin <= atom->radius[i])) require_slow(i);
-      pieces = candidates.near_pieces(k, placement.to_shape(Vec3(atom->x[i])), atom->radius[i]);
-      // a shape without pieces is asked for each candidate
-      visit |= pieces > 0 || candidates.piece_count(k) == 0 || books_setup();
-    }
-    if (visit) visits.push_back({static_cast<int>(k), pieces});
-  }
+  const int i = candidates.particle(candidate);
+  if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
+  // a particle that leaves the group in contact must not find its old history when it comes back
+  const bool member = is_member(i);
+  if (!member && !keep_ledger) histories.clear(i);
+  bool meets = histories.has_some(i);
+  pieces = 0;
+  if (!member) return meets;
+  // one that stays this near to where it was collected makes no larger steps than its radius
+  if (!(2.0 * collected_margin <= candidates.radius(candidate))) require_slow(i);
+  pieces = candidates.near_pieces(candidate, placement.to_shape(row_of(atom->x, i)));
+  // a shape without pieces is asked for each candidate
+  return meets || pieces > 0 || candidates.piece_count(candidate) == 0 || books_setup();
 }
 
-// Particles at a wall are scattered over all particles: few of their data are in the cache.
+/// Meets the candidates that must be. Particles at a wall are scattered over all particles, and few of their
+/// data are in the cache: what is needed of each is fetched some visits ahead.
+void FixWallGranEepa::meet_candidates()
+{
+  constexpr std::size_t soon = 16;    // candidates ahead
+  constexpr std::size_t delay = 8;    // visits
+  visits.clear();
+  std::size_t met = 0;
+  const std::size_t count = candidates.count();
+  for (std::size_t k = 0; k < count; k++) {
+    if (k + soon < count) prefetch_place(candidates.particle(k + soon));
+    int pieces;
+    if (!must_be_met(k, pieces)) continue;
+    visits.push_back({static_cast<int>(k), pieces});
+    prefetch(visits.back());
+    if (visits.size() > met + delay) meet(visits[met++]);
+  }
+  while (met < visits.size()) meet(visits[met++]);
+}
 
 void FixWallGranEepa::prefetch_place(int i) const
 {
-#if defined(__GNUC__) || defined(__clang__)
-  __builtin_prefetch(atom->x[i]);
-  __builtin_prefetch(atom->radius + i);
-  __builtin_prefetch(atom->mask + i);
-#else
-  (void) i;
-#endif
+  prefetch_row(atom->x, i);
+  histories.prefetch(i);
 }
 
 void FixWallGranEepa::prefetch(const Visit &visit) const
 {
-#if defined(__GNUC__) || defined(__clang__)
   const int i = candidates.particle(visit.candidate);
-  __builtin_prefetch(atom->v[i]);
-  __builtin_prefetch(atom->omega[i]);
-  __builtin_prefetch(atom->f[i], 1);
-  __builtin_prefetch(atom->torque[i], 1);
+  prefetch_row(atom->v, i);
+  prefetch_row(atom->omega, i);
+  prefetch_row(atom->f, i);
+  prefetch_row(atom->torque, i);
+#if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(atom->rmass + i);
 #endif
-  histories.prefetch_contacts(i);
+  histories.prefetch_list(i);
   shape->prefetch(candidates.pieces(visit.candidate), visit.pieces);
 }

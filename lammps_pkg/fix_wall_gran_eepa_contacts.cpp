@@ -51,7 +51,7 @@ int FixWallGranEepa::pack_exchange(int i, double *buf)
   const auto &list = histories.list(i);
   int n = 0;
   buf[n++] = static_cast<double>(list.size());
-  for (const auto &contact : list) n += pack(contact, buf + n);
+  for (std::size_t k = 0; k < list.size(); k++) n += pack(list[k], buf + n);
   return n;
 }
 
@@ -106,7 +106,7 @@ int FixWallGranEepa::pack_restart(int i, double *buf)
 {
   const auto &list = histories.list(i);
   int n = 3;
-  for (const auto &contact : list) n += pack(contact, buf + n);
+  for (std::size_t k = 0; k < list.size(); k++) n += pack(list[k], buf + n);
   buf[0] = n;    // first, because other fixes skip over it
   buf[1] = history_size;
   buf[2] = static_cast<double>(list.size());

@@ -4,6 +4,7 @@
 
 #include "fix_wall_gran_eepa.h"
 
+#include "atom_rows.h"
 #include "compute_gran_eepa_energy_atom.h"
 #include "face_loads.h"
 #include "region_shape.h"
@@ -66,14 +67,7 @@ void FixWallGranEepa::post_force(int vflag)
   if (face_loads && step) face_loads->start_step();
   // what is asked of single contacts is not known of several side by side
   may_wait = !waiting_outcomes.empty() && step && !keep_ledger && !contact_table && !face_loads;
-  choose_visits();
-  for (std::size_t k = 0; k < visits.size(); k++) {
-    constexpr std::size_t soon = 4, later = 8;    // visits ahead
-    if (k + later < visits.size())
-      histories.prefetch_list(candidates.particle(visits[k + later].candidate));
-    if (k + soon < visits.size()) prefetch(visits[k + soon]);
-    meet(visits[k]);
-  }
+  meet_candidates();
   evaluate_waiting();
   after_setup = !step;
   if (step) ledger_starts = false;
@@ -99,10 +93,11 @@ void FixWallGranEepa::post_force(int vflag)
 
 /* ---------------------------------------------------------------------- contacts of a particle */
 
-eepa::Body<double> FixWallGranEepa::body_of(int i) const
+eepa::Body<double> FixWallGranEepa::body_of(int candidate) const
 {
-  return {Vec3(atom->x[i]), Vec3(atom->v[i]), Vec3(atom->omega[i]), atom->radius[i],
-          masses.mass(i)};
+  const int i = candidates.particle(candidate);
+  return {row_of(atom->x, i), row_of(atom->v, i), row_of(atom->omega, i),
+          candidates.radius(candidate), masses.mass(i)};
 }
 
 /// Whether losses of contacts that a set-up had are booked in this step: it leaves no history, so whether
@@ -121,15 +116,16 @@ static double alikeness(const FaceHistory &before, const SurfacePoint &now)
 void FixWallGranEepa::meet(const Visit &visit)
 {
   const int i = candidates.particle(visit.candidate);
-  const bool member = atom->mask[i] & groupbit;
-  const Vec3 centre = placement.to_shape(Vec3(atom->x[i]));
+  const bool member = is_member(i);
+  const Vec3 centre = placement.to_shape(row_of(atom->x, i));
   found.clear();
   if (member)
-    shape->visit(centre, atom->radius[i], candidates.pieces(visit.candidate), visit.pieces, found);
+    shape->visit(centre, candidates.radius(visit.candidate), candidates.pieces(visit.candidate),
+                 visit.pieces, found);
   const bool had_some = histories.has_some(i);
   if (found.empty() && !had_some && !books_setup()) return;
 
-  const eepa::Body<double> body = body_of(i);
+  const eepa::Body<double> body = body_of(visit.candidate);
   if (found.size() == 1 && had_some) {
     // by far the most frequent case: the contact of the step before goes on
     auto &list = histories.mutable_list(i);
@@ -144,7 +140,7 @@ void FixWallGranEepa::meet(const Visit &visit)
   }
   match(i, centre);
   if (had_some) {
-    FaceHistory *list = histories.mutable_list(i).data();
+    const auto &list = histories.list(i);
     for (std::size_t k = 0; k < is_matched.size(); k++)
       if (!is_matched[k]) part(i, body, centre, list[k], member);
   }
@@ -160,7 +156,7 @@ void FixWallGranEepa::meet(const Visit &visit)
   std::size_t kept = 0;
   for (std::size_t k = 0; k < list.size(); k++)
     if (k >= is_matched.size() || is_matched[k]) list[kept++] = list[k];
-  list.resize(kept);
+  list.truncate(kept);
   allow_for(kept);
   histories.release(i);
 }
@@ -272,10 +268,11 @@ void FixWallGranEepa::finish(const Touch &touch, const eepa::Body<double> &body,
   const eepa::Wrench<double> &wrench = outcome.wrench;
   elastic_energy += outcome.energy.total();
   const Vec3 moment = eepa::moment_on_wall(wrench, body.x, Vec3(about.data()));
+  double *force = row(atom->f, i), *torque = row(atom->torque, i);
   double *force_on_wall = sums.force[typed_shape.planes() == 2 ? point.face : 0];
   for (int k = 0; k < 3; k++) {
-    atom->f[i][k] += wrench.force[k];
-    atom->torque[i][k] += wrench.torque_i[k];
+    force[k] += wrench.force[k];
+    torque[k] += wrench.torque_i[k];
     force_on_wall[k] -= wrench.force[k];
     sums.moment[k] += moment[k];
   }
@@ -320,13 +317,12 @@ void FixWallGranEepa::part_after_setup(int candidate, const eepa::Body<double> &
   const FaceHistory none;
   for (const SurfacePoint &point : near) {
     if (point.distance < body.radius) continue;
-    const auto has_face = [&point](const auto &other) {
+    bool known = std::any_of(found.begin(), found.end(), [&point](const SurfacePoint &other) {
       return other.face == point.face;
-    };
+    });
     const auto &list = histories.list(i);
-    if (std::any_of(found.begin(), found.end(), has_face) ||
-        std::any_of(list.begin(), list.end(), has_face))
-      continue;
+    for (std::size_t k = 0; k < list.size(); k++) known |= list[k].face == point.face;
+    if (known) continue;
     const eepa::WallPoint<double> wall = wall_point(point, body, centre);
     const eepa::Contact contact = eepa::contact_at_wall(body, wall, request.time_step);
     if (wall.overlap + contact.velocity.dot(contact.normal) * dt > 0.0)
@@ -348,7 +344,7 @@ eepa::WallPoint<double> FixWallGranEepa::wall_point(const SurfacePoint &point,
   const Vec3 spot = eepa::middle_of_overlap(body, wall.normal, wall.overlap);
   // as the particle's velocity, that of half a step ago
   wall.velocity = placement.velocity_before(spot, body.v, 0.5 * request.time_step);
-  if (placement.angular_velocity() != Vec3::Zero()) {
+  if (placement.turns()) {
     wall.angular_velocity = placement.angular_velocity();
     wall.normal_rate += wall.angular_velocity.cross(wall.normal);
   }

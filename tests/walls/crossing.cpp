@@ -54,7 +54,7 @@ TEST(IsBetween, NothingSlipsThroughEdgesAndCorners)
     Random random(seed);
     for (int i = 0; i < 20000; ++i) {
       // aimed at a vertex or at a point of an edge, to rounding
-      const auto &corners = mesh.corners[random.below(mesh.count())];
+      const auto &corners = mesh.facets[random.below(mesh.count())].corners;
       const Vec3 &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]];
       const Vec3 aim = i % 2 ? a : Vec3(a + random.between(0, 1) * (b - a));
       const Vec3 inside = centre + random.vector(0.1);
@@ -71,7 +71,7 @@ TEST(IsBetween, NothingSlipsThroughInManySteps)
   const Vec3 centre = 0.5 * (mesh.low + mesh.high);
   Random random(7);
   for (int i = 0; i < 500; ++i) {
-    const auto &corners = mesh.corners[random.below(mesh.count())];
+    const auto &corners = mesh.facets[random.below(mesh.count())].corners;
     const Vec3 &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]];
     const double part = i % 3 == 0 ? 0.0 : random.between(0, 1);
     Vec3 x = centre, aim = a + part * (b - a);
@@ -125,14 +125,14 @@ TEST(Candidates, AreEnoughWhileTheCentreStaysWithinTheReach)
       ASSERT_LE(pieces[p - 1].distance, pieces[p].distance);
     }
     Candidates candidates;
-    candidates.add(i, centre, radius + margin, shape, false);
+    candidates.add(i, centre, radius, margin, shape, false);
     ASSERT_EQ(candidates.count(), any ? 1u : 0u);
     for (int k = 0; k < 5; ++k) {
       const Vec3 x = centre + (k == 4 ? margin : random.between(0, margin)) * random.direction();
       some.clear();
       whole.clear();
       if (any) {
-        const int near = candidates.near_pieces(0, x, radius);
+        const int near = candidates.near_pieces(0, x);
         ASSERT_LE(near, candidates.piece_count(0));
         left_out += candidates.piece_count(0) - near;
         shape.visit(x, radius, candidates.pieces(0), near, some);

@@ -4,7 +4,6 @@
 
 #include "shape.h"
 
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -22,6 +21,7 @@ class Candidates {
   void clear()
   {
     particles_.clear();
+    radii_.clear();
     centres_.clear();
     pieces_.clear();
     first_piece_.assign(1, 0);
@@ -29,21 +29,26 @@ class Candidates {
 
   /// Takes a particle in if it may touch the shape.
   /// \param centre  in the shape's frame
-  /// \param reach  its radius and how far its centre may move [length]
+  /// \param margin  how far its centre may move [length]
   /// \param always  whether it is taken in even if it can not touch
-  void add(int particle, const Vec3 &centre, double reach, const Shape &shape, bool always)
+  void add(int particle, const Vec3 &centre, double radius, double margin, const Shape &shape,
+           bool always)
   {
-    if (!shape.collect(centre, reach, pieces_) && !always) {
+    if (!shape.collect(centre, radius + margin, pieces_) && !always) {
       pieces_.resize(first_piece_.back());
       return;
     }
     particles_.push_back(particle);
+    radii_.push_back(radius);
     centres_.push_back(centre);
     first_piece_.push_back(pieces_.size());
   }
 
   std::size_t count() const { return particles_.size(); }
   int particle(std::size_t k) const { return particles_[k]; }
+  const std::vector<int> &particles() const { return particles_; }
+  /// When it was collected. Here and not with the particle because particles at a wall are scattered in memory.
+  double radius(std::size_t k) const { return radii_[k]; }
 
   const SurfacePiece *pieces(std::size_t k) const { return pieces_.data() + first_piece_[k]; }
   /// 0 for all particles of a shape that has no pieces
@@ -53,26 +58,32 @@ class Candidates {
   }
   /// How many of its pieces, the first ones, a particle may touch.
   /// \param centre  now, in the shape's frame
-  int near_pieces(std::size_t k, const Vec3 &centre, double radius) const
+  int near_pieces(std::size_t k, const Vec3 &centre) const
   {
     const Vec3 path = centre - centres_[k];
-    const double most = radius + std::sqrt(dot<double>(path, path)) * (1.0 + 1e-12);
+    const double moved = dot<double>(path, path) * (1.0 + 1e-12);    // squared
     const SurfacePiece *piece = pieces(k);
     const int count = piece_count(k);
+    const auto is_near = [radius = radii_[k], moved](double distance) {
+      const double gap = distance - radius;
+      return gap <= 0.0 || gap * gap <= moved;
+    };
     int near = 0;
-    while (near < count && piece[near].distance <= most) ++near;
+    while (near < count && is_near(piece[near].distance)) ++near;
     return near;
   }
 
   double memory_usage() const
   {
     return static_cast<double>(
-        particles_.capacity() * sizeof(int) + centres_.capacity() * sizeof(Vec3) +
-        pieces_.capacity() * sizeof(SurfacePiece) + first_piece_.capacity() * sizeof(std::size_t));
+        particles_.capacity() * sizeof(int) + radii_.capacity() * sizeof(double) +
+        centres_.capacity() * sizeof(Vec3) + pieces_.capacity() * sizeof(SurfacePiece) +
+        first_piece_.capacity() * sizeof(std::size_t));
   }
 
  private:
   std::vector<int> particles_;
+  std::vector<double> radii_;
   std::vector<Vec3> centres_;
   std::vector<SurfacePiece> pieces_;
   std::vector<std::size_t> first_piece_ = {0};

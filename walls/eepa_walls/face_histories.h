@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace eepa {
@@ -21,14 +22,65 @@ struct FaceHistory {
   std::array<double, max_history_size> values{};    ///< see HistoryIndex
 };
 
+/// Contacts of one particle, in the order in which they began. The first one, mostly the only one, lies in the
+/// list itself, so that a contact is one place of memory.
+class FaceHistoryList {
+ public:
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+
+  const FaceHistory &operator[](std::size_t k) const { return k == 0 ? first_ : others_[k - 1]; }
+  FaceHistory &operator[](std::size_t k) { return k == 0 ? first_ : others_[k - 1]; }
+
+  void push_back(const FaceHistory &contact)
+  {
+    if (size_++ == 0)
+      first_ = contact;
+    else
+      others_.push_back(contact);
+  }
+  /// Forgets the last ones. \param size  at most as many as there are
+  void truncate(std::size_t size)
+  {
+    size_ = size;
+    others_.resize(size > 1 ? size - 1 : 0);
+  }
+
+  double memory_of_others() const
+  {
+    return static_cast<double>(others_.capacity() * sizeof(FaceHistory));
+  }
+
+ private:
+  std::size_t size_ = 0;
+  FaceHistory first_;
+  std::vector<FaceHistory> others_;
+};
+
 /// Histories of all particles of a process with a wall. Few of them touch it, so that a particle
 /// without contacts has one integer here, and one in contact a short list.
 class FaceHistories {
  public:
-  using List = std::vector<FaceHistory>;
+  using List = FaceHistoryList;
 
   /// Makes room for particles. \param count  at least as many as before
   void grow(std::size_t count) { list_of_.resize(count, none); }
+
+  /// Puts the lists in the order in which particles will be asked for, one after the other in memory. No list
+  /// moves from then on while only these particles get contacts.
+  /// \param particles  among them all that have contacts
+  void arrange(const std::vector<int> &particles)
+  {
+    std::vector<List> ordered;
+    ordered.reserve(particles.size());
+    for (const int particle : particles) {
+      if (!has_some(particle)) continue;
+      ordered.push_back(std::move(lists_[list_of_[particle]]));
+      list_of_[particle] = static_cast<int>(ordered.size()) - 1;
+    }
+    lists_ = std::move(ordered);
+    free_.clear();
+  }
 
   bool has_some(int particle) const { return list_of_[particle] != none; }
 
@@ -39,22 +91,21 @@ class FaceHistories {
     return has_some(particle) ? lists_[list_of_[particle]] : empty;
   }
 
-  /// Fetches a list that will be read soon, and its contacts, which is of use once the list is there.
-  void prefetch_list(int particle) const
+  /// Fetch what has_some() and the list will read soon.
+  void prefetch(int particle) const
   {
 #if defined(__GNUC__) || defined(__clang__)
-    if (has_some(particle)) __builtin_prefetch(&lists_[list_of_[particle]]);
+    __builtin_prefetch(&list_of_[particle]);
 #else
     (void) particle;
 #endif
   }
-  void prefetch_contacts(int particle) const
+  void prefetch_list(int particle) const
   {
 #if defined(__GNUC__) || defined(__clang__)
     if (!has_some(particle)) return;
-    const auto *first = reinterpret_cast<const char *>(lists_[list_of_[particle]].data());
-    for (std::size_t line = 0; line < sizeof(FaceHistory); line += 64)
-      __builtin_prefetch(first + line, 1);
+    const auto *list = reinterpret_cast<const char *>(&lists_[list_of_[particle]]);
+    for (std::size_t line = 0; line < sizeof(List); line += 64) __builtin_prefetch(list + line, 1);
 #else
     (void) particle;
 #endif
@@ -86,7 +137,7 @@ class FaceHistories {
   void clear(int particle)
   {
     if (!has_some(particle)) return;
-    lists_[list_of_[particle]].clear();
+    lists_[list_of_[particle]].truncate(0);
     release(particle);
   }
 
@@ -102,10 +153,11 @@ class FaceHistories {
 
   double memory_usage() const
   {
-    std::size_t bytes = list_of_.capacity() * sizeof(int) + free_.capacity() * sizeof(int) +
-        lists_.capacity() * sizeof(List);
-    for (const List &list : lists_) bytes += list.capacity() * sizeof(FaceHistory);
-    return static_cast<double>(bytes);
+    auto bytes =
+        static_cast<double>(list_of_.capacity() * sizeof(int) + free_.capacity() * sizeof(int) +
+                            lists_.capacity() * sizeof(List));
+    for (const List &list : lists_) bytes += list.memory_of_others();
+    return bytes;
   }
 
  private:

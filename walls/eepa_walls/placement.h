@@ -57,8 +57,13 @@ class Placement {
   bool is_turned() const { return is_turned_; }
 
   /// [1/time], about the axis
-  void set_angular_velocity(double speed) { angular_velocity_ = speed * axis; }
+  void set_angular_velocity(double speed)
+  {
+    angular_velocity_ = speed * axis;
+    turns_ = speed != 0.0;
+  }
   const Vec3 &angular_velocity() const { return angular_velocity_; }
+  bool turns() const { return turns_; }
 
   Vec3 to_shape(const Vec3 &point) const
   {
@@ -85,7 +90,7 @@ class Placement {
   /// Velocity of the shape at a point of space [length/time]
   Vec3 velocity_at(const Vec3 &point) const
   {
-    if (angular_velocity_ == Vec3::Zero()) return velocity;
+    if (!turns_) return velocity;
     const Vec3 arm = point - displacement - pivot;
     return velocity + angular_velocity_.cross(arm);
   }
@@ -95,7 +100,7 @@ class Placement {
   /// \param time  before the present, short
   Vec3 velocity_before(const Vec3 &point, const Vec3 &velocity_of_point, double time) const
   {
-    if (angular_velocity_ == Vec3::Zero()) return velocity;
+    if (!turns_) return velocity;
     return velocity_at(point - time * (velocity_of_point - velocity));
   }
 
@@ -109,6 +114,7 @@ class Placement {
   Vec3 shift_ = Vec3::Zero();
   Eigen::Matrix3d matrix_ = Eigen::Matrix3d::Identity();
   Vec3 angular_velocity_ = Vec3::Zero();
+  bool turns_ = false;    // whether it is not 0
 };
 
 }    // namespace eepa

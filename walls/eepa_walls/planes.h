@@ -5,7 +5,9 @@
 #include "shape.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace eepa {
 
@@ -22,12 +24,17 @@ class Planes final : public Shape {
   {
   }
 
-  bool collect(const Vec3 &centre, double reach,
-               std::vector<SurfacePiece> & /*pieces*/) const override
+  /// A piece is a plane.
+  bool collect(const Vec3 &centre, double reach, std::vector<SurfacePiece> &pieces) const override
   {
+    const std::size_t before = pieces.size();
+    const double rounding = 1e-12 * reach + 1e-15 * std::fabs(centre[axis_]);
     for (const int face : {lower, upper})
-      if (has_[face] && distance(face, centre) < reach) return true;
-    return false;
+      if (has_[face] && distance(face, centre) < reach + rounding)
+        pieces.push_back({face, piece_distance(distance(face, centre), rounding)});
+    if (pieces.size() > before + 1 && pieces[before + 1].distance < pieces[before].distance)
+      std::swap(pieces[before], pieces[before + 1]);
+    return pieces.size() > before;
   }
 
   void visit(const Vec3 &centre, double radius, const SurfacePiece * /*pieces*/, int /*count*/,
