@@ -2,6 +2,7 @@
 
 // Planes and cylinder: what spheres touch, how the normal turns, and what they promise of their motion.
 
+#include <eepa_walls/candidates.h>
 #include <eepa_walls/cylinder.h>
 #include <eepa_walls/placement.h>
 #include <eepa_walls/planes.h>
@@ -45,6 +46,30 @@ TEST(Planes, AreTouchedOnTheirInnerSides)
   EXPECT_TRUE(contacts(upper, Vec3(0, -3, 0), 0.5).empty());
   EXPECT_TRUE(upper.has_face(Planes::upper) && !upper.has_face(Planes::lower));
   EXPECT_FALSE(both.has_face(2) || both.has_face(-1));
+}
+
+// A particle is asked for the planes that it may touch, and for no others.
+TEST(Planes, AreLookedAtWhileTheyMayBeTouched)
+{
+  const Planes both(0, true, true, 0.0, 3.0);
+  Candidates candidates;
+  candidates.add(0, Vec3(1.2, 0, 0), 1.0, 0.5, both,
+                 false);    // 0.2 from the lower, 0.8 from the upper
+  candidates.add(1, Vec3(1.8, 0, 0), 1.0, 1.0, both,
+                 false);    // 0.8 from the lower, 0.2 from the upper
+  candidates.add(2, Vec3(1.5, 0, 0), 1.0, 0.4, both, false);
+  candidates.add(3, Vec3(-5, 0, 0), 1.0, 0.5, both, false);    // behind
+  ASSERT_EQ(candidates.particles(), (std::vector<int>{0, 1, 3}));
+  ASSERT_EQ(candidates.piece_count(0), 1);
+  ASSERT_EQ(candidates.piece_count(1), 2);
+  EXPECT_EQ(candidates.pieces(1)[0].number, Planes::upper);
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_EQ(candidates.near_pieces(0, Vec3(1.2 + side * 0.199, 0, 0)), 0);
+    EXPECT_EQ(candidates.near_pieces(0, Vec3(1.2 + side * 0.201, 0, 0)), 1);
+    EXPECT_EQ(candidates.near_pieces(1, Vec3(1.8, side * 0.201, 0)), 1);
+    EXPECT_EQ(candidates.near_pieces(1, Vec3(1.8, 0, side * 0.801)), 2);
+  }
+  EXPECT_EQ(candidates.near_pieces(2, Vec3(-5, 0, 0)), 1);
 }
 
 TEST(Planes, StayInPlaceWhereTheyTurnAboutTheirNormal)
