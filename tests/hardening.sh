@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-only
 # Checks that take too long, or tools too many, for ctest. Each ends with one line of figures.
 #
-#   hardening.sh fuzz [SECONDS]   libFuzzer on the parser and on the kernel, SECONDS each (300)
+#   hardening.sh fuzz [SECONDS]   libFuzzer on parser, kernel and walls, SECONDS each (300)
 #   hardening.sh sanitizers       every test with address and undefined-behaviour sanitizers
 #   hardening.sh valgrind         memcheck on tests/fuzz/in.valgrind
 #   hardening.sh differential [COUNT]  random scripts in ways that must not matter, on 1, 2 and 4 ranks (100)
@@ -35,10 +35,10 @@ fuzz() {
     need clang++ "clang libclang-rt-14-dev"
     cmake -S "$root" -B "$work/fuzz" -D CMAKE_CXX_COMPILER=clang++ -D EEPA_WITH_LAMMPS=OFF \
         -D EEPA_FUZZ=ON -D CMAKE_BUILD_TYPE=RelWithDebInfo >"$work/fuzz.configure.log"
-    cmake --build "$work/fuzz" --target fuzz_parser fuzz_kernel >"$work/fuzz.build.log" ||
+    cmake --build "$work/fuzz" --target fuzz_parser fuzz_kernel fuzz_walls >"$work/fuzz.build.log" ||
         die "see $work/fuzz.build.log"
     line="fuzz:" status=0
-    for name in parser kernel; do
+    for name in parser kernel walls; do
         mkdir -p "$work/corpus_$name"
         log=$work/fuzz_$name.log
         "$work/fuzz/fuzz_$name" -max_total_time="$seconds" -max_len=1500 -print_final_stats=1 \

@@ -22,9 +22,9 @@ namespace eepa {
 template <class Real> using Vector3 = Eigen::Matrix<Real, 3, 1>;
 
 /// Whether a Real stands for several contacts, with a number in each lane.
-template <class Real> constexpr bool is_lanes = false;
+template <class Real> inline constexpr bool is_lanes = false;
 #ifdef EEPA_HAS_LANES
-template <> constexpr bool is_lanes<Lanes> = true;
+template <> inline constexpr bool is_lanes<Lanes> = true;
 #endif
 
 /// Whether a condition holds for any contact.

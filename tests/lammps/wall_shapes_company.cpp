@@ -6,6 +6,9 @@
 #include "packing.h"
 #include "triangles.h"
 
+#include "force.h"
+#include "lammps.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -170,6 +173,8 @@ TEST(ThreadsWithAMesh, MoveParticlesAsOneDoes)
                   "fix move all nve/sphere\nfix g all gravity 10 vector 0.3 0.2 -1");
     simulation->run(200);
   }
+  EXPECT_STREQ(one.lammps()->force->pair_style, "gran/eepa");
+  EXPECT_STREQ(two.lammps()->force->pair_style, "gran/eepa/omp");
   EXPECT_LT(difference(one.particles(), two.particles()), 1e-9);
   EXPECT_GT(one.fix("w", CONTACTS), 5.0);
 }

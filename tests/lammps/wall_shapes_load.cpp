@@ -18,7 +18,8 @@ using namespace eepa_test;
 namespace {
 
 constexpr int POSITION = 4, VELOCITY = 5, CONTACTS = 6, LOAD_FORCE = 13, LOAD_KINETIC_ENERGY = 14,
-              LOAD_WORK = 15, LOAD_DISSIPATED = 16;
+              LOAD_WORK = 15, LOAD_DISSIPATED = 16, TORQUE_X = 17, TORQUE_Y = 18, TORQUE_Z = 19,
+              ANGLE = 20;
 const std::string law =
     " all wall/gran/eepa linear coeff 1e4 2e4 5e3 -0.1 0.5 restitution 0.7 rolling sds 1e3 0.1 0.1 "
     "wall ";
@@ -38,20 +39,23 @@ void open_cup(Simulation &simulation)
              "yplane -2.3 2.3");
 }
 
+class PressedMesh : public testing::TestWithParam<const char *> {};
+
 // The underside of a box of triangles in place of a plane, whose force rises and falls, and which a limit
-// stops for a while.
-TEST(PressedMesh, IsAPressedPlane)
+// stops for a while; one that turns meanwhile drags the particles along.
+TEST_P(PressedMesh, IsAPressedPlane)
 {
   const ScratchFile file(".stl");
-  write_stl(file.name(), box(3.0, 7, true));
-  const std::string load = "v_push mass 20 damping 4 limits ";
+  write_stl(file.name(), box(4.0, 9, true));
+  const std::string load = "v_push mass 20 damping 4 limits ", turn = GetParam();
   Simulation plane, mesh;
   for (auto *simulation : {&plane, &mesh}) {
     open_cup(*simulation);
     (*simulation)("variable push equal -400*(1-cos(30*step*dt))-50");
   }
-  plane("fix lid" + law + "zplane NULL 2.5 load " + load + "0.9 NULL");
-  mesh("fix lid" + law + "mesh " + file.name() + " offset 0 0 5.5 load z " + load + "-1.6 NULL");
+  plane("fix lid" + law + "zplane NULL 2.5 load " + load + "0.9 NULL" + turn);
+  mesh("fix lid" + law + "mesh " + file.name() + " offset 0 0 6.5 load z " + load + "-1.6 NULL" +
+       turn);
   double pressed = 0.0, fastest = 0.0, stopped = 0.0;
   for (int look = 0; look < 50; look++) {
     plane.run(200);
@@ -62,6 +66,9 @@ TEST(PressedMesh, IsAPressedPlane)
     EXPECT_EQ(plane.fix("lid", CONTACTS), mesh.fix("lid", CONTACTS)) << look;
     const double scale = std::max(1.0, plane.wall_force("lid").norm());
     EXPECT_LT((plane.wall_force("lid") - mesh.wall_force("lid")).norm(), 1e-9 * scale) << look;
+    for (const int k : {TORQUE_X, TORQUE_Y, TORQUE_Z})
+      EXPECT_NEAR(plane.fix("lid", k), mesh.fix("lid", k), 1e-9 * scale) << k << " at " << look;
+    EXPECT_EQ(plane.fix("lid", ANGLE), mesh.fix("lid", ANGLE)) << look;
     for (const int k : {LOAD_FORCE, LOAD_KINETIC_ENERGY, LOAD_WORK, LOAD_DISSIPATED})
       EXPECT_NEAR(plane.fix("lid", k), mesh.fix("lid", k), 1e-8) << k << " at look " << look;
     pressed = std::max(pressed, plane.wall_force("lid").z());
@@ -71,8 +78,12 @@ TEST(PressedMesh, IsAPressedPlane)
   EXPECT_GT(pressed, 100.0);
   EXPECT_GT(fastest, 0.5);
   EXPECT_GT(stopped, 2.0);
-  std::printf("largest force %g, velocity %g, at the limit %g of 50\n", pressed, fastest, stopped);
+  const double angle = mesh.fix("lid", ANGLE);
+  EXPECT_EQ(angle != 0.0, !turn.empty());
+  std::printf("largest force %g, velocity %g, at the limit %g of 50, turned by %g\n", pressed,
+              fastest, stopped, angle);
 }
+INSTANTIATE_TEST_SUITE_P(Lids, PressedMesh, testing::Values("", " rotate 0.3 -0.2 0 0 0 1 3"));
 
 /// Kinetic and potential energy of particles and all of the ledger, less the work of the walls.
 double energy(const Simulation &simulation)

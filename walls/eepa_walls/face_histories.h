@@ -68,17 +68,19 @@ class FaceHistories {
 
   /// Puts the lists in the order in which particles will be asked for, one after the other in memory. No list
   /// moves from then on while only these particles get contacts.
-  /// \param particles  among them all that have contacts
+  /// \param particles  all whose contacts are kept: LAMMPS leaves places behind of particles that are gone
   void arrange(const std::vector<int> &particles)
   {
     std::vector<List> ordered;
     ordered.reserve(particles.size());
+    std::vector<int> list_of(list_of_.size(), none);
     for (const int particle : particles) {
       if (!has_some(particle)) continue;
+      list_of[particle] = static_cast<int>(ordered.size());
       ordered.push_back(std::move(lists_[list_of_[particle]]));
-      list_of_[particle] = static_cast<int>(ordered.size()) - 1;
     }
     lists_ = std::move(ordered);
+    list_of_ = std::move(list_of);
     free_.clear();
   }
 
