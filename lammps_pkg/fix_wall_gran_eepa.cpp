@@ -226,7 +226,7 @@ double FixWallGranEepa::contact_time_step()
 {
   double mine = std::numeric_limits<double>::infinity(), stiffest = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!is_member(i)) continue;
     const double mass = masses.mass(i);
     const double stiffness = eepa::largest_stiffness(coefficients, 2.0 * atom->radius[i]);
     stiffest = std::max(stiffest, stiffness);

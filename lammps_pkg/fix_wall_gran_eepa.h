@@ -166,10 +166,11 @@ class FixWallGranEepa : public Fix {
   double collected_margin = 0.0;    // by which a particle may move before the next collection
   std::vector<eepa::Vec3>
       places;    // of all atoms then, where neighbour lists do not bound their motion
-  eepa::Placement collected_at;     // the placement at the last collection
-  bool rotation_is_new = false;     // since the last collection
-  double travel_left = 0.0;         // travel of the surface that requires the next collection
-  bool radii_may_change = false;    // during a run
+  eepa::Placement collected_at;        // the placement at the last collection
+  bool rotation_is_new = false;        // since the last collection
+  bool particles_are_moved = false;    // to other places in memory since the last collection
+  double travel_left = 0.0;            // travel of the surface that requires the next collection
+  bool radii_may_change = false;       // during a run
 
   // of the particle in turn
   std::vector<eepa::SurfacePoint> found;    // its contacts

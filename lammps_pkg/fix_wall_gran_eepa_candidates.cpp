@@ -34,7 +34,9 @@ bool FixWallGranEepa::lists_bound_motion() const
 /// Whether candidates must be collected again before this force call.
 bool FixWallGranEepa::candidates_are_old() const
 {
-  if (update->setupflag != 0 || neighbor->ago == 0 || !candidates_stay()) return true;
+  // particles move in memory when lists are made, and where others have them moved without
+  if (update->setupflag != 0 || neighbor->ago == 0 || particles_are_moved) return true;
+  if (!candidates_stay()) return true;
   if (!(travelled() <= travel_left)) return true;
   if (places.empty()) return false;
   const double most = 0.25 * neighbor->skin * neighbor->skin;
@@ -79,16 +81,17 @@ void FixWallGranEepa::collect_candidates()
     if (!by_lists)
       for (int i = 0; i < atom->nlocal; i++) places.emplace_back(atom->x[i]);
   }
+  for (int i = 0; i < atom->nlocal; i++) require_slow(i);
   collected_margin = margin;
   collected_at = placement;
   rotation_is_new = false;
   candidates.clear();
   for (int i = 0; i < atom->nlocal; i++) {
-    require_slow(i);
     const Vec3 centre = placement.to_shape(Vec3(atom->x[i]));
     candidates.add(i, centre, atom->radius[i], margin, *shape, histories.has_some(i));
   }
   histories.arrange(candidates.particles());
+  particles_are_moved = false;
   if (contact_table && atom->nlocal > 0)
     std::fill_n(array_atom[0], static_cast<std::size_t>(atom->nlocal) * N_ATOM, 0.0);
 }

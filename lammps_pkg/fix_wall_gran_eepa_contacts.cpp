@@ -31,12 +31,14 @@ void FixWallGranEepa::grow_arrays(int nmax)
 void FixWallGranEepa::copy_arrays(int i, int j, int /*delflag*/)
 {
   histories.copy(i, j);
+  particles_are_moved = true;
   if (contact_table) std::copy_n(array_atom[i], static_cast<int>(N_ATOM), array_atom[j]);
 }
 
 void FixWallGranEepa::set_arrays(int i)
 {
   histories.clear(i);
+  particles_are_moved = true;
   if (contact_table) std::fill_n(array_atom[i], static_cast<int>(N_ATOM), 0.0);
 }
 
@@ -58,6 +60,7 @@ int FixWallGranEepa::pack_exchange(int i, double *buf)
 int FixWallGranEepa::unpack_exchange(int i, double *buf)
 {
   histories.clear(i);
+  particles_are_moved = true;
   const int contacts = static_cast<int>(buf[0]);
   int n = 1;
   for (int k = 0; k < contacts; k++) {
@@ -145,6 +148,7 @@ void FixWallGranEepa::unpack_restart(int i, int nth)
   if (!has_place && entry[0] != 3.0 + contacts * (1 + history_size)) refuse("length", entry[0]);
 
   histories.clear(i);
+  particles_are_moved = true;
   const int size = has_place ? packed_size() : 1 + history_size;
   for (int c = 0; c < static_cast<int>(contacts); c++) {
     const double *from = entry + 3 + static_cast<std::ptrdiff_t>(c) * size;

@@ -67,6 +67,9 @@ void FixWallGranEepa::post_force(int vflag)
   if (face_loads && step) face_loads->start_step();
   // what is asked of single contacts is not known of several side by side
   may_wait = !waiting_outcomes.empty() && step && !keep_ledger && !contact_table && !face_loads;
+  // an error may have ended the run before in the midst of a force call
+  waiting_contacts.clear();
+  waiting.clear();
   meet_candidates();
   evaluate_waiting();
   after_setup = !step;

@@ -26,7 +26,7 @@ bool FixWallGranEepa::got_through(const eepa::Body<double> &body, const FaceHist
 /// moves by less than its radius in a step can not get through without a contact.
 void FixWallGranEepa::require_slow(int i) const
 {
-  if (!request.advance || !(atom->mask[i] & groupbit)) return;
+  if (!request.advance || !is_member(i)) return;
   const Vec3 x(atom->x[i]), v(atom->v[i]);
   const double radius = atom->radius[i];
   Vec3 path = dt * (v - placement.velocity_at(x));

@@ -90,7 +90,7 @@ std::vector<double> FixWallGranEepa::restart_state() const
   state[PLATEN_WORK] = platen.work;
   state[PLATEN_DISSIPATED] = platen.dissipated;
   state[ROTATES] = motion_args.rotates ? 1.0 : 0.0;
-  state[ANGLE] = placement.angle;
+  state[TURNED_BY] = placement.angle;
   state[ANGLE_BEFORE] = angle_before;
   state[ANGULAR_SPEED] = angular_speed;
   state[BEGUN_AT] = placement.begun_at.w();
@@ -273,7 +273,7 @@ void FixWallGranEepa::take_up_motion(const std::vector<double> &state)
   placement.shift_begun_at = vector_at(state, SHIFT_BEGUN_AT);
   placement.pivot = vector_at(state, PIVOT);
   placement.axis = vector_at(state, AXIS);
-  placement.turn_to(state[ANGLE]);
+  placement.turn_to(state[TURNED_BY]);
   angle_before = state[ANGLE_BEFORE];
   angular_speed = state[ANGULAR_SPEED];
   measure_rotation();

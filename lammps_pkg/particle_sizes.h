@@ -21,10 +21,12 @@ struct AnnouncedParticles {
   double density;              ///< [mass/length^3]
 };
 
-/// Whether a fix may change radii in mid-run.
+/// Whether a fix is known to change radii in mid-run.
 inline bool radii_may_change(Modify *modify)
 {
-  return !modify->get_fix_by_style("^adapt").empty() || !modify->get_fix_by_style("^set$").empty();
+  for (const char *style : {"^adapt", "^set$", "^GRANULAR/MDR$"})
+    if (!modify->get_fix_by_style(style).empty()) return true;
+  return false;
 }
 
 }    // namespace LAMMPS_NS

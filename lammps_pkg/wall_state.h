@@ -10,9 +10,10 @@
 namespace LAMMPS_NS {
 namespace wall_state {
 
-  constexpr double restart_format = 4.0, oldest_format = 3.0;
+  constexpr double restart_format = 5.0, oldest_format = 3.0;
 
-  /// Places in the list. Integers are exact. Format 4 added those from ROTATES on.
+  /// Places in the list. Integers are exact. Format 4 added those from ROTATES on, and lost the phase of a wiggle
+  /// that turns. No name may be one of the fix's own enumerators, which would hide it.
   enum Index {
     FORMAT,    ///< first, so that it can be read alone
     COUNT,     ///< of the numbers
@@ -46,7 +47,7 @@ namespace wall_state {
     N_OLD_VECTOR = 16,
     N_OLD_STATE = VECTOR + N_OLD_VECTOR,    // of format 3
     ROTATES = N_OLD_STATE,
-    ANGLE,
+    TURNED_BY,
     ANGLE_BEFORE,
     ANGULAR_SPEED,
     BEGUN_AT,    // quaternion, scalar first

@@ -141,11 +141,12 @@ TEST_F(OtherFormat, OfTheWallIsRefusedByName)
   for (const int other : {2, 9}) {    // 2 did not say which surface
     write();
     // format, how many numbers, zplane, lo, at 0
-    patch(4.0, {LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, 0.0, 0.0}, other);
+    patch(LAMMPS_NS::wall_state::restart_format,
+          {LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, 0.0, 0.0}, other);
     Simulation restarted;
     EXPECT_TRUE(refuses(restarted, "read_restart " + file.name() + "\n" + box + wall,
                         "fix wall wall/gran/eepa: the restart file has format " +
-                            std::to_string(other) + ", this version reads 3 and 4"));
+                            std::to_string(other) + ", this version reads 3 and 5"));
   }
 }
 

@@ -3,6 +3,7 @@
 #define EEPA_TESTS_RANDOM_SCRIPT_H
 
 #include "packing.h"
+#include "triangles.h"
 
 #include "../random_parameters.h"
 
@@ -39,6 +40,7 @@ class RandomScript {
   std::string fixes;       ///< walls and gravity, without the integrator
   std::string boundary;    ///< of the box, that is [-half, half] in each direction
   double half = 0.0;
+  std::vector<Corners> triangles;    ///< of the file that `fixes` names MESH; none without a mesh
   std::vector<std::string> walls;    ///< IDs of the wall fixes
   bool walls_move = false;           ///< whether any of them changes its place
   std::vector<Stage> stages;
@@ -127,7 +129,7 @@ class RandomScript {
     boundary = "p p p";
     if (chance(60))
       fixes += "fix gravity all gravity" + word(between(1.0, 50.0)) + " vector 0.3 0.1 -1\n";
-    const int kind = number(4);
+    const int kind = number(6);
     if (kind == 1) {
       boundary = "p p f";
       add_wall("zplane " + lo + " " + hi, motion("z"));
@@ -143,18 +145,92 @@ class RandomScript {
     } else if (kind == 3) {
       boundary = "f f p";
       const double radius = 1.1 * half;
-      std::vector<Sphere> inside;
-      for (const auto &s : spheres)
-        if (std::hypot(s.x.x(), s.x.y()) + s.radius < radius + 0.05) inside.push_back(s);
-      spheres = inside;
+      keep_within(radius, false);
       add_wall("zcylinder" + word(radius), chance(50) ? "" : motion("z"));
+    } else if (kind == 4) {
+      boundary = "f f f";
+      draw_region();
+    } else if (kind == 5) {
+      boundary = "f f f";
+      draw_mesh();
     }
+  }
+
+  /// Keeps the particles within a cylinder about z or a sphere, both about the origin.
+  void keep_within(double radius, bool sphere)
+  {
+    std::vector<Sphere> inside;
+    for (const auto &s : spheres) {
+      const double z = sphere ? s.x.z() : 0.0;
+      if (Vec3(s.x.x(), s.x.y(), z).norm() + s.radius < radius + 0.05) inside.push_back(s);
+    }
+    spheres = inside;
+  }
+
+  void draw_region()
+  {
+    const double radius = 1.1 * half;
+    const std::string ends = " " + exact(-half) + " " + exact(half);
+    switch (number(3)) {
+      case 0:
+        fixes += "region shape block" + ends + ends + ends + "\n";
+        add_wall("region shape", shape_motion(0.5));
+        break;
+      case 1:
+        keep_within(radius, true);
+        fixes += "region shape sphere 0 0 0" + word(radius) + "\n";
+        add_wall("region shape", shape_motion(5.0));
+        break;
+      default:
+        keep_within(radius, false);
+        fixes += "region shape cylinder z 0 0" + word(radius) + ends + "\n";
+        add_wall("region shape", shape_motion(chance(50) ? 5.0 : 0.0));
+    }
+  }
+
+  void draw_mesh()
+  {
+    if (chance(50)) {
+      triangles = box(half, 1 + number(6), true);
+      add_wall("mesh MESH", shape_motion(0.5));
+    } else {
+      const double radius = 1.1 * half;
+      triangles = prism(12 + number(30), 1.04 * radius, half, true);
+      keep_within(radius, false);
+      add_wall("mesh MESH", shape_motion(5.0));
+    }
+  }
+
+  /// \param fastest  rotation about z; others about any axis are slower, since edges would hit particles
+  std::string shape_motion(double fastest)
+  {
+    std::string words;
+    switch (number(5)) {
+      case 0:
+        words = " wiggle" + std::string(chance(50) ? " x" : " z") + word(between(0.0, 0.03)) +
+            word(between(0.02, 0.1));
+        break;
+      case 1:
+        words = " velocity" + word(between(-0.5, 0.5)) + word(between(-0.5, 0.5)) +
+            word(between(-0.5, 0.5));
+        break;
+      case 2:
+        words = " load z" + word(between(-500.0, 500.0)) + " mass" + word(between(5.0, 50.0)) +
+            " damping" + word(between(0.0, 100.0));
+        break;
+      default:
+        break;
+    }
+    if (chance(50))
+      words += chance(70) ? " rotate 0 0 0 0 0 1" + word(between(-fastest, fastest))
+                          : " rotate 0.3 0.1 0 1 -0.5 0.2" + word(between(-0.5, 0.5));
+    return words;
   }
 
   void add_wall(const std::string &surface, const std::string &motion)
   {
-    for (const char *drive : {" velocity", " wiggle", " load"})
-      if (motion.find(drive) == 0) walls_move = true;
+    for (const char *drive : {" velocity", " wiggle", " load", " rotate"})
+      if (motion.find(drive) != std::string::npos) walls_move = true;
     walls.push_back("wall" + std::to_string(walls.size() + 1));
     fixes += "fix " + walls.back() + " all wall/gran/eepa " + style_ + " coeff" + coefficients() +
         " wall " + surface + motion + (chance(30) ? " contacts" : "") + "\n";

@@ -219,16 +219,20 @@ TEST_F(WallRestartMisfit, OfDamagedNumbersIsNamed)
 {
   const std::string wall = "wall zplane -0.0625 NULL";
   write(wall);
-  damage({4.0, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625}, 0, 2.0);
-  EXPECT_TRUE(refused(wall, "the restart file has format 2, this version reads 3 and 4"));
+  damage({LAMMPS_NS::wall_state::restart_format, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625},
+         0, 2.0);
+  EXPECT_TRUE(refused(wall, "the restart file has format 2, this version reads 3 and 5"));
   write(wall);
-  damage({4.0, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625}, 1, 1e9);
+  damage({LAMMPS_NS::wall_state::restart_format, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625},
+         1, 1e9);
   EXPECT_TRUE(refused(wall, "the restart file is damaged: count = "));
   write(wall);
-  damage({4.0, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625}, 2, 7.0);
+  damage({LAMMPS_NS::wall_state::restart_format, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625},
+         2, 7.0);
   EXPECT_TRUE(refused(wall, "the restart file is damaged: kind = 7"));
   write(wall);
-  damage({4.0, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625}, 4, std::nan(""));
+  damage({LAMMPS_NS::wall_state::restart_format, LAMMPS_NS::wall_state::N_STATE, 2.0, 1.0, -0.0625},
+         4, std::nan(""));
   EXPECT_TRUE(refused(wall, "the restart file is damaged: lo = -?nan"));
   // a particle's entry: 12 numbers of 4 values for 1 contact with face 0
   const struct {

@@ -102,6 +102,26 @@ TEST(SmallParticle, IsSeenBetweenNeighbourLists)
       "fix w wall/gran/eepa: the center of atom 2 is through the mesh .* at step 3, at 3.022"));
 }
 
+// An error in the midst of a force call, when contacts wait to be evaluated side by side: the run after it knows
+// nothing of them.
+TEST(Stop, LeavesNothingToTheNextRun)
+{
+  std::vector<Sphere> spheres;
+  for (int k = 0; k < 6; k++) spheres.push_back({Vec3(1.2 * k - 3.0, 0, 0.499)});
+  spheres.push_back({Vec3(3, 3, 2), Vec3(0, 0, -900)});
+  Simulation simulation;
+  open(simulation, spheres, 1e-3);
+  simulation(soft + "zplane 0 NULL");
+  simulation.run(1);
+  EXPECT_TRUE(refuses(simulation, "run 5", "fix w wall/gran/eepa: atom 7 overlaps"));
+  simulation("group intruder id 7\ndelete_atoms group intruder");
+  simulation.run(0);
+  double force = 0.0;
+  for (const Particle &p : simulation.particles()) force += 1e3 * (0.5 - p.x.z());
+  EXPECT_EQ(simulation.fix("w", CONTACTS), 6.0);
+  EXPECT_NEAR(simulation.wall_force("w").z(), -force, 1e-9 * force);
+}
+
 // Through the open ends of a tube, past its rims, and onto a plate from both sides.
 TEST(NotThrough, AreThoseWhoGoAround)
 {

@@ -84,7 +84,7 @@ const std::vector<Case> &cases()
       {"DrumNewtonOff", "rotate 0 0 0 0 0 1 12 velocity 0.3 0 0", prism(36, 2.75, 2.6, true), "off",
        0, "\nfix balance all balance 40 1.0 shift xyz 5 1.0"},
       {"OctagonOffItsAxis", "rotate 0.3 0.2 0 0.1 0 1 12", prism(8, 3.0, 2.7, true), "on", 1, ""},
-      {"Box", "wiggle x 0.05 0.1 rotate 0 0 0 0 0 1 12", box(2.6, 5, true), "on", 0,
+      {"Box", "wiggle x 0.05 0.13 rotate 0 0 0 0 0 1 12", box(2.6, 5, true), "on", 0,
        "\nfix balance all balance 40 1.0 shift xyz 5 1.0"},
       {"Lid", "rotation 1 0 0 90 load y -300 mass 50 damping 5 rotate 0 0 0 0 1 0 2",
        prism(40, 2.8, 2.6, true), "on", 3, ""},

@@ -64,7 +64,7 @@ TEST(ShapeRestart, RefusesOtherTriangles)
             "");
 }
 
-/// Makes a file of format 3 out of one of format 4 that has one particle with one contact.
+/// Makes a file of format 3 out of one of today's that has one particle with one contact.
 void make_older(const std::string &name)
 {
   using namespace LAMMPS_NS::wall_state;

@@ -57,8 +57,8 @@ class FaceHistoryList {
   std::vector<FaceHistory> others_;
 };
 
-/// Histories of all particles of a process with a wall. Few of them touch it, so that a particle
-/// without contacts has one integer here, and one in contact a short list.
+/// Histories of all particles of a process with a wall. Few of them touch it: a particle has an integer here,
+/// one in contact a short list, and one that may come into contact room for it.
 class FaceHistories {
  public:
   using List = FaceHistoryList;
@@ -71,16 +71,16 @@ class FaceHistories {
   /// \param particles  all whose contacts are kept: LAMMPS leaves places behind of particles that are gone
   void arrange(const std::vector<int> &particles)
   {
-    std::vector<List> ordered;
-    ordered.reserve(particles.size());
-    std::vector<int> list_of(list_of_.size(), none);
+    spare_lists_.clear();
+    spare_lists_.reserve(particles.size());
+    spare_list_of_.assign(list_of_.size(), none);
     for (const int particle : particles) {
       if (!has_some(particle)) continue;
-      list_of[particle] = static_cast<int>(ordered.size());
-      ordered.push_back(std::move(lists_[list_of_[particle]]));
+      spare_list_of_[particle] = static_cast<int>(spare_lists_.size());
+      spare_lists_.push_back(std::move(lists_[list_of_[particle]]));
     }
-    lists_ = std::move(ordered);
-    list_of_ = std::move(list_of);
+    lists_.swap(spare_lists_);
+    list_of_.swap(spare_list_of_);
     free_.clear();
   }
 
@@ -155,9 +155,9 @@ class FaceHistories {
 
   double memory_usage() const
   {
-    auto bytes =
-        static_cast<double>(list_of_.capacity() * sizeof(int) + free_.capacity() * sizeof(int) +
-                            lists_.capacity() * sizeof(List));
+    const std::size_t numbers = list_of_.capacity() + spare_list_of_.capacity() + free_.capacity();
+    const std::size_t lists = lists_.capacity() + spare_lists_.capacity();
+    auto bytes = static_cast<double>(numbers * sizeof(int) + lists * sizeof(List));
     for (const List &list : lists_) bytes += list.memory_of_others();
     return bytes;
   }
@@ -168,6 +168,9 @@ class FaceHistories {
   std::vector<int> list_of_;
   std::vector<List> lists_;
   std::vector<int> free_;
+  // of the arrangement before, kept so that no memory is asked for where lists are arranged in every step
+  std::vector<int> spare_list_of_;
+  std::vector<List> spare_lists_;
 };
 
 }    // namespace eepa
