@@ -132,12 +132,30 @@ void FixWallGranEepa::make_shape()
   }
 }
 
+/// Whether a part of a union or an intersection turns by its own keywords.
+static bool has_parts_that_turn(const Region *region)
+{
+  for (int k = 0; region->reglist && k < region->nregion; k++)
+    if (region->reglist[k]->rotateflag || has_parts_that_turn(region->reglist[k])) return true;
+  return false;
+}
+
 Region *FixWallGranEepa::find_region() const
 {
+  // Region::surface() of a part has turned its contacts back into space. Of 4 Jul 2026, that of a union or an
+  // intersection turns them once more, and others of the list with them.
+  constexpr int turned_once = 20250204;
   Region *region = domain->get_region_by_id(typed_shape.region_id);
   if (!region)
     error->all(FLERR, "fix {} wall/gran/eepa: wall region {} does not exist", id,
                typed_shape.region_id);
+  if (lmp->num_ver > turned_once && has_parts_that_turn(region))
+    error->all(
+        FLERR,
+        "fix {} wall/gran/eepa: wall region {} has a part with keyword rotate: LAMMPS newer than 4 "
+        "Feb 2025 finds contacts with such a region in wrong places; turn the whole wall with "
+        "rotate of the fix",
+        id, typed_shape.region_id);
   return region;
 }
 
