@@ -124,19 +124,6 @@ EEPA_FUNCTION void prefetch_partner(std::ptrdiff_t j, const ParticleArrays &p,
   prefetch_written(forces.f + 3 * j);
   prefetch_written(forces.torque + 3 * j);
 }
-
-/// Prefetches what lies in a second line of the cache: one row of 3 numbers in four does.
-EEPA_FUNCTION void prefetch_ends_of_rows(std::ptrdiff_t j, const ParticleArrays &p,
-                                         const ForceArrays &forces)
-{
-  constexpr int end = 2;
-  prefetch(p.x + 3 * j + end);
-  prefetch(p.v + 3 * j + end);
-  prefetch(p.omega + 3 * j + end);
-  prefetch_written(forces.f + 3 * j + end);
-  prefetch_written(forces.torque + 3 * j + end);
-}
-
 /// Pointers to the rows of the neighbour list and of the histories.
 struct NeighborRows {
   const int *ilist, *numneigh;
@@ -176,7 +163,6 @@ EEPA_FUNCTION void prefetch_neighbors(const NeighborRows &rows, int place, int e
   prefetch(p.x + 3 * j);
   prefetch(p.radius + j);
   prefetch_partner(j, p, forces);
-  prefetch_ends_of_rows(j, p, forces);
 }
 }    // namespace
 
