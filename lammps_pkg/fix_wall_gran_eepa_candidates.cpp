@@ -5,7 +5,7 @@
 
 #include "fix_wall_gran_eepa.h"
 
-#include "atom_rows.h"
+#include "particle_arrays.h"
 
 #include "atom.h"
 #include "neighbor.h"
@@ -109,7 +109,7 @@ bool FixWallGranEepa::must_be_met(std::size_t candidate, int &pieces)
   if (!member) return meets;
   // one that stays this near to where it was collected makes no larger steps than its radius
   if (!(2.0 * collected_margin <= candidates.radius(candidate))) require_slow(i);
-  pieces = candidates.near_pieces(candidate, placement.to_shape(row_of(atom->x, i)));
+  pieces = candidates.near_pieces(candidate, placement.to_shape(ParticleArrays::at(atom->x[0], i)));
   // a shape without pieces is asked for each candidate
   return meets || pieces > 0 || candidates.piece_count(candidate) == 0 || books_setup();
 }
@@ -136,17 +136,17 @@ void FixWallGranEepa::meet_candidates()
 
 void FixWallGranEepa::prefetch_place(int i) const
 {
-  prefetch_row(atom->x, i);
+  prefetch_row(atom->x[0], i);
   histories.prefetch(i);
 }
 
 void FixWallGranEepa::prefetch(const Visit &visit) const
 {
   const int i = candidates.particle(visit.candidate);
-  prefetch_row(atom->v, i);
-  prefetch_row(atom->omega, i);
-  prefetch_row(atom->f, i);
-  prefetch_row(atom->torque, i);
+  prefetch_row(atom->v[0], i);
+  prefetch_row(atom->omega[0], i);
+  prefetch_row(atom->f[0], i);
+  prefetch_row(atom->torque[0], i);
 #if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(atom->rmass + i);
 #endif

@@ -4,9 +4,9 @@
 
 #include "fix_wall_gran_eepa.h"
 
-#include "atom_rows.h"
 #include "compute_gran_eepa_energy_atom.h"
 #include "face_loads.h"
+#include "particle_arrays.h"
 #include "region_shape.h"
 
 #include <eepa/status.h>
@@ -99,8 +99,8 @@ void FixWallGranEepa::post_force(int vflag)
 eepa::Body<double> FixWallGranEepa::body_of(int candidate) const
 {
   const int i = candidates.particle(candidate);
-  return {row_of(atom->x, i), row_of(atom->v, i), row_of(atom->omega, i),
-          candidates.radius(candidate), masses.mass(i)};
+  return {ParticleArrays::at(atom->x[0], i), ParticleArrays::at(atom->v[0], i),
+          ParticleArrays::at(atom->omega[0], i), candidates.radius(candidate), masses.mass(i)};
 }
 
 /// Whether losses of contacts that a set-up had are booked in this step: it leaves no history, so whether
@@ -120,7 +120,7 @@ void FixWallGranEepa::meet(const Visit &visit)
 {
   const int i = candidates.particle(visit.candidate);
   const bool member = is_member(i);
-  const Vec3 centre = placement.to_shape(row_of(atom->x, i));
+  const Vec3 centre = placement.to_shape(ParticleArrays::at(atom->x[0], i));
   found.clear();
   if (member)
     shape->visit(centre, candidates.radius(visit.candidate), candidates.pieces(visit.candidate),
@@ -271,11 +271,9 @@ void FixWallGranEepa::finish(const Touch &touch, const eepa::Body<double> &body,
   const eepa::Wrench<double> &wrench = outcome.wrench;
   elastic_energy += outcome.energy.total();
   const Vec3 moment = eepa::moment_on_wall(wrench, body.x, Vec3(about.data()));
-  double *force = row(atom->f, i), *torque = row(atom->torque, i);
+  ForceArrays{atom->f[0], atom->torque[0]}.add(i, wrench.force, wrench.torque_i);
   double *force_on_wall = sums.force[typed_shape.planes() == 2 ? point.face : 0];
   for (int k = 0; k < 3; k++) {
-    force[k] += wrench.force[k];
-    torque[k] += wrench.torque_i[k];
     force_on_wall[k] -= wrench.force[k];
     sums.moment[k] += moment[k];
   }

@@ -8,7 +8,8 @@
 
 namespace LAMMPS_NS {
 
-/// The per-atom arrays that bodies are gathered from, as flat runs of 3 doubles an atom.
+/// The per-atom arrays that bodies are gathered from, as flat runs of 3 doubles an atom: LAMMPS's arrays of pointers
+/// to rows are as scattered a read as the rows themselves.
 struct ParticleArrays {
   const double *x, *v, *omega;    ///< 3 doubles an atom
   const double *radius, *mass;    ///< 1 double an atom
@@ -35,6 +36,18 @@ struct ForceArrays {
     Row(torque + 3 * static_cast<std::ptrdiff_t>(i)) += moment;
   }
 };
+
+/// Fetches the 3 numbers of an atom, which will be read soon. They may lie in two lines of the cache.
+inline void prefetch_row(const double *array, int i)
+{
+  const double *row = array + 3 * static_cast<std::ptrdiff_t>(i);
+#if defined(__GNUC__) || defined(__clang__)
+  __builtin_prefetch(row, 1);
+  __builtin_prefetch(row + 2, 1);
+#else
+  (void) row;
+#endif
+}
 
 }    // namespace LAMMPS_NS
 
