@@ -1,5 +1,5 @@
 #!/bin/sh
-# Prints the first Python 3 that has NumPy, SciPy and Matplotlib: $PYTHON alone where it is set, else
+# Prints the first Python 3 that has what the studies need: $PYTHON alone where it is set, else
 # the system's own before the one on PATH, since apt installs the libraries for the former.
 if [ -n "${PYTHON:-}" ]; then
     set -- "$PYTHON"
@@ -8,10 +8,10 @@ else
 fi
 for python; do
     path=$(command -v "$python") || continue
-    if "$path" -c 'import numpy, scipy, matplotlib' 2>/dev/null; then
+    if "$path" -c 'import numpy, scipy, matplotlib, pandas, statsmodels, yaml' 2>/dev/null; then
         printf '%s\n' "$path"
         exit 0
     fi
 done
-echo "no Python 3 with NumPy, SciPy and Matplotlib among: $*" >&2
+echo "no Python 3 with NumPy, SciPy, Matplotlib, pandas, statsmodels and PyYAML among: $*" >&2
 exit 1

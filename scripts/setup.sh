@@ -12,7 +12,8 @@ build=${BUILD_DIR:-$root/build}
 
 packages=(cmake ninja-build g++ libopenmpi-dev openmpi-bin libeigen3-dev libgtest-dev
     libbenchmark-dev libpng-dev python3 python3-numpy python3-scipy
-    python3-matplotlib python3-meshio dpkg-dev xz-utils
+    python3-matplotlib python3-meshio python3-pandas python3-statsmodels python3-yaml snakemake
+    dpkg-dev xz-utils
     ca-certificates)
 
 installed() {
@@ -43,13 +44,13 @@ else
     for tool in cmake ninja c++ mpicxx mpirun tar; do
         command -v "$tool" >/dev/null || missing+=("$tool")
     done
-    sh "$root/scripts/find_python.sh" >/dev/null 2>&1 || missing+=("python3 with NumPy, SciPy and Matplotlib")
+    sh "$root/scripts/find_python.sh" >/dev/null 2>&1 || missing+=("python3 with NumPy, SciPy, Matplotlib, pandas, statsmodels and PyYAML")
     if [ ${#missing[@]} -gt 0 ]; then
         printf 'Missing: %s\n' "${missing[@]}" >&2
         cat >&2 <<'NEEDED'
 This is no Debian or Ubuntu, so nothing is installed here. Needed are: CMake 3.20 or newer, Ninja,
 a C++17 compiler (GCC or Clang) with OpenMP, an MPI with its compiler wrappers, Eigen 3.3 or newer,
-GoogleTest, Google Benchmark, and Python 3 with NumPy, SciPy and Matplotlib.
+GoogleTest, Google Benchmark, and Python 3 with NumPy, SciPy, Matplotlib, pandas, statsmodels and PyYAML.
 NEEDED
         exit 1
     fi

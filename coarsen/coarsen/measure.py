@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""What a run says in numbers: from the files of in.confined and in.unconfined to one row a specimen.
+
+SI units. Strain is that of the bulk, positive in compression, and counts from the preload, where axial
+stress last rises through it on loading; axial stress is the mean of both platens'.
+"""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Dict, Union
+
+import numpy as np
+import pandas as pd
+
+#: Stress over that of the last level where quantities are compared, and where unloading is elastic.
+COMPARED, ELASTIC = 0.9, (0.5, 0.95)
+#: Points of a curve, evenly in stress from the preload to the last level.
+POINTS = 100
+#: Samples, least and most, of the running mean that finds the peak of crushing, and part of that peak
+#: from which on they make the cubic whose top is the strength: the largest sample, or mean of a few,
+#: would be too high by their scatter, which grows with the diameter.
+SMOOTHED, NEAR_PEAK = (5, 15), 0.8
+#: Of loading, by which the strain rate is taken for the inertial number.
+RATE_SAMPLES = 20
+
+
+class BadRun(ValueError):
+    """A run lacks what is to be measured; the message names its folder."""
+
+
+def read_curve(path: Union[str, Path]) -> pd.DataFrame:
+    """The samples of a curve.csv, with the axial stress added as `stress`."""
+    samples = pd.read_csv(path)
+    samples["stress"] = 0.5 * (samples["stress_top"] + samples["stress_bottom"])
+    return samples
+
+
+def loading(samples: pd.DataFrame, preload: float, place: str = "curve") -> pd.DataFrame:
+    """The samples of loading from the preload on, with `strain` counted from it.
+
+    :raise BadRun: when loading does not begin below the preload and end above it
+    """
+    load = samples[samples["stage"] == "load"]
+    below = np.flatnonzero(load["stress"] < preload)
+    if len(below) == 0 or below[-1] == len(load) - 1:
+        raise BadRun(f"{place}: stress does not rise through the preload of {preload:g} Pa")
+    pair = load.iloc[below[-1]:below[-1] + 2].select_dtypes("number")
+    share = (preload - pair["stress"].iloc[0]) / pair["stress"].diff().iloc[1]
+    first = pair.iloc[0] + share * (pair.iloc[1] - pair.iloc[0])
+    kept = pd.concat([first.to_frame().T, load.iloc[below[-1] + 1:]], ignore_index=True)
+    return kept.assign(strain=1.0 - (1.0 - kept["bulk_strain"]) / (1.0 - first["bulk_strain"]))
+
+
+def at_stress(load: pd.DataFrame, stress: Union[float, np.ndarray], quantity: str):
+    """A quantity of loading at a stress, or some. A sample against the rise of stress (a grain that
+    slips) only changes places with its neighbour."""
+    rising = load.sort_values("stress", kind="stable")
+    return np.interp(stress, rising["stress"], rising[quantity].astype(float))
+
+
+def curve_of(load: pd.DataFrame, top: float, points: int = POINTS) -> pd.DataFrame:
+    """The curve at stresses that runs have in common: strain, porosity, coordination over stress."""
+    grid = np.linspace(load["stress"].iloc[0], top, points)
+    return pd.DataFrame({"stress": grid, **{
+        name: at_stress(load, grid, column) for name, column in (
+            ("strain", "strain"), ("porosity", "bulk_porosity"), ("coordination", "coordination"))}})
+
+
+def stress_at_strain(load: pd.DataFrame, strain: float) -> float:
+    rising = load.sort_values("strain", kind="stable")
+    return float(np.interp(strain, rising["strain"], rising["stress"]))
+
+
+def modulus(samples: pd.DataFrame, place: str = "curve") -> Dict[str, float]:
+    """On unloading: rise of axial and of mean stress per axial strain of the bulk, and the ratio of
+    lateral to axial stress before it."""
+    unload = samples[samples["stage"] == "unload"]
+    if len(unload) == 0:
+        raise BadRun(f"{place}: it was not unloaded")
+    axial, strain = unload["stress"], unload["bulk_strain"] / (1.0 - unload["bulk_strain"].iloc[0])
+    part = axial.between(ELASTIC[0] * axial.iloc[0], ELASTIC[1] * axial.iloc[0])
+    if part.sum() < 3:
+        raise BadRun(f"{place}: unloading has {part.sum()} samples between {ELASTIC[0]:g} and "
+                     f"{ELASTIC[1]:g} of its first stress, needed are 3")
+    lateral = unload["stress_x"] + unload["stress_y"]
+    return {"constrained_modulus": np.polyfit(strain[part], axial[part], 1)[0],
+            "bulk_modulus": np.polyfit(strain[part], (axial + lateral)[part] / 3.0, 1)[0],
+            "lateral_ratio": lateral.iloc[0] / (2.0 * axial.iloc[0])}
+
+
+def inertial_number(load: pd.DataFrame, diameter: float, density: float) -> float:
+    """Largest I = strain rate d sqrt(density/stress) on loading (MiDi, Eur. Phys. J. E 14 (2004) 341)."""
+    load = load.iloc[1:]  # the first is interpolated, at no step of its own
+    # Holds lie between the samples of loading: no span of samples reaches over one.
+    spans = load["step"].diff(RATE_SAMPLES)
+    rate = load["bulk_strain"].diff(RATE_SAMPLES) / load["time"].diff(RATE_SAMPLES)
+    stress = load["stress"].rolling(RATE_SAMPLES + 1).mean()
+    numbers = rate.abs() * diameter * np.sqrt(density / stress)
+    return float(numbers[spans == spans.min()].max())
+
+
+def strength(strain: np.ndarray, stress: np.ndarray) -> Dict[str, float]:
+    """Largest stress of crushing and its strain: the top of the cubic of least squares around it."""
+    width = min(SMOOTHED[1], max(SMOOTHED[0], len(stress) // 15))
+    smooth = pd.Series(stress).rolling(width, center=True, min_periods=1).mean().to_numpy()
+    rough = int(np.argmax(smooth))
+    far = np.flatnonzero(smooth < NEAR_PEAK * smooth[rough])
+    near = slice(int(far[far < rough].max(initial=-1)) + 1, int(far[far > rough].min(initial=len(stress))))
+    x, y = strain[near], stress[near]
+    if len(x) < SMOOTHED[0]:
+        return {"strength": float(smooth[rough]), "strain_at_peak": float(strain[rough])}
+    fine = np.linspace(x[0], x[-1], 1001)
+    values = np.polynomial.Polynomial.fit(x, y, 3)(fine)
+    return {"strength": float(values.max()), "strain_at_peak": float(fine[values.argmax()])}
+
+
+def measure_confined(folder: Path, diameter: float, density: float, preload: float) -> Dict[str, float]:
+    """A row of a confined test: see the names in README.md."""
+    samples = read_curve(folder / "curve.csv")
+    load = loading(samples, preload, str(folder))
+    top = load["stress"].max()
+    at = COMPARED * top
+    last = samples[samples["stage"].isin(("load", "hold"))].iloc[-1]
+    return {"strain": float(at_stress(load, at, "strain")),
+            "porosity_before": float(load["bulk_porosity"].iloc[0]),
+            "porosity": float(at_stress(load, at, "bulk_porosity")),
+            "coordination": float(at_stress(load, at, "coordination")),
+            "bulk_coordination": float(at_stress(load, at, "bulk_coordination")),
+            **modulus(samples, str(folder)),
+            "overlap": float(last["mean_overlap"]),
+            "inertial_number": inertial_number(load, diameter, density)}
+
+
+def measure_crushed(folder: Path) -> Dict[str, float]:
+    """A row of an unconfined test."""
+    samples = read_curve(folder / "curve.csv")
+    free, crush = (samples[samples["stage"] == stage] for stage in ("free", "crush"))
+    if len(free) == 0 or len(crush) < SMOOTHED[0]:
+        raise BadRun(f"{folder}: {len(crush)} samples of crushing, needed are {SMOOTHED[0]}")
+    strain = 1.0 - crush["height"].to_numpy() / free["height"].iloc[-1]
+    return {**strength(strain, crush["stress"].to_numpy()),
+            "porosity_unloaded": float(free["bulk_porosity"].iloc[-1])}

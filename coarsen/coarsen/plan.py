@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""Which diameters may be simulated: what each costs, which numbers it has, how wrong it will be."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Dict, List, Optional, Sequence
+
+import numpy as np
+import pandas as pd
+
+from .evidence import NUMBERS, Prediction, predict
+from .numbers import Loading, Powder
+
+#: Steps of a geometric series of diameters that are tried when none are named.
+SERIES = 8
+MOST_PARTICLES = 2.0e7
+
+
+@dataclass(frozen=True)
+class Speed:
+    """Of LAMMPS on the machine that is planned for: particles times steps in a second of one core, and
+    memory of a particle and of a program without any, bytes."""
+
+    particle_steps: float
+    particle_bytes: float = 1300.0
+    program_bytes: float = 6.0e7
+
+
+@dataclass(frozen=True)
+class Line:
+    """One diameter of a plan. SI units; core time in s, memory in bytes."""
+
+    diameter: float
+    particles: int
+    time_step: float
+    steps: int
+    core_seconds: float
+    memory: float
+    numbers: Dict[str, float]
+    predictions: Dict[str, Prediction]
+    #: why it may not be used, empty if it may
+    objections: List[str]
+
+
+def numbers_of(powder: Powder, loading: Loading, diameter: float, scaled_gravity: bool) -> Dict[str, float]:
+    """What errors depend on, at a diameter."""
+    gravity = loading.gravity * (powder.diameter / diameter if scaled_gravity else 1.0)
+    weight = 1.0 / powder.bond_number(diameter, gravity) if gravity and powder.f0 else 0.0
+    return {"narrowness": diameter / loading.width, "inertia": loading.inertial_number(diameter, powder.density),
+            "overlap": powder.overlap(loading.high), "weight": weight}
+
+
+def line(powder: Powder, loading: Loading, diameter: float, wanted: Dict[str, float], table: pd.DataFrame,
+         speed: Speed, scaled_gravity: bool) -> Line:
+    """:param wanted: error allowed, by quantity"""
+    real, coarse = (numbers_of(powder, loading, d, scaled_gravity) for d in (powder.diameter, diameter))
+    predictions = {quantity: predict(table, quantity, {n: (real[n], coarse[n]) for n in NUMBERS})
+                   for quantity in wanted}
+    objections = [reason for p in predictions.values() for reason in p.outside]
+    objections += [f"{quantity} is off by {100 * p.low:+.1f} to {100 * p.high:+.1f}%, allowed are "
+                   f"{100 * wanted[quantity]:g}%" for quantity, p in predictions.items()
+                   if max(-p.low, p.high) > wanted[quantity]]
+    count, step = loading.particles(diameter), powder.time_step(diameter)
+    steps = loading.steps(step)
+    return Line(diameter, count, step, steps, count * float(steps) / speed.particle_steps,
+                speed.program_bytes + count * speed.particle_bytes, coarse, predictions,
+                list(dict.fromkeys(objections)))
+
+
+def series(powder: Powder, loading: Loading) -> List[float]:
+    """Diameters from the powder's own, or the finest that a simulation can hold, to a sixth of the width."""
+    finest = max(powder.diameter, powder.diameter
+                 * (loading.particles(powder.diameter) / MOST_PARTICLES)**(1.0 / 3.0))
+    coarsest = max(loading.width / 6.0, finest)
+    return [float(f"{d:.2g}") for d in np.geomspace(finest, coarsest, SERIES)]
+
+
+def best(lines: Sequence[Line]) -> Optional[Line]:
+    """The cheapest without objection."""
+    free = [one for one in lines if not one.objections]
+    return min(free, key=lambda one: one.core_seconds) if free else None

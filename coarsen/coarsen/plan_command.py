@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""`coarsen plan`: its options, its table, and the include file that it writes."""
+from __future__ import annotations
+
+import argparse
+import re
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Any, List, Sequence
+
+from . import evidence, workflow
+from .numbers import Loading, Powder
+from .options import percentages
+from .plan import Line, Speed, best, line, series
+
+INFILES = Path(__file__).resolve().parents[2] / "examples" / "scale_collapse"
+
+
+def add(commands: Any) -> None:
+    """Adds the command to the parser's commands."""
+    parser = commands.add_parser(
+        "plan", help="which diameter may be simulated, at what cost and with what error",
+        description="From a real powder and a test to a table of diameters: particles, time step, cost, "
+                    "dimensionless numbers, predicted errors with 90% intervals, and what speaks against "
+                    "each. SI units.",
+        epilog="Exit status: 0 with a diameter that may be used, 3 without, 1 for an error.")
+    powder = parser.add_argument_group("powder")
+    powder.add_argument("--diameter", type=float, required=True, metavar="M", help="of the real particles")
+    powder.add_argument("--density", type=float, required=True, metavar="KG/M3", help="of their material")
+    powder.add_argument("--dref", type=float, default=None, metavar="M",
+                        help="diameter that the coefficients belong to (the real one)")
+    for name, unit in (("k1", "N/m"), ("k2", "N/m"), ("kadh", "N/m"), ("f0", "N")):
+        powder.add_argument(f"--{name}", type=float, required=name == "k1", metavar=unit,
+                            default={"k2": None, "kadh": 0.0, "f0": 0.0}.get(name),
+                            help="of pair_coeff" + (" (2 k1)" if name == "k2" else ""))
+    powder.add_argument("--smallest", type=float, default=1.0, metavar="PART",
+                        help="smallest diameter over --diameter, for a distribution (1)")
+    test = parser.add_argument_group("test")
+    test.add_argument("--width", type=float, required=True, metavar="M",
+                      help="of the specimen or machine at its narrowest place: gap, orifice")
+    test.add_argument("--length", type=float, default=None, metavar="M", help="the other way (--width)")
+    test.add_argument("--height", type=float, default=None, metavar="M", help="(--width)")
+    test.add_argument("--solid-fraction", type=float, default=0.6, metavar="PART", help="(0.6)")
+    test.add_argument("--stress", type=float, nargs=2, required=True, metavar=("LOW", "HIGH"),
+                      help="between which results are wanted, Pa")
+    test.add_argument("--rate", type=float, required=True, metavar="1/S", help="strain rate")
+    test.add_argument("--strain", type=float, default=0.2, metavar="E", help="gone through in all (0.2)")
+    test.add_argument("--gravity", type=float, default=0.0, metavar="M/S2",
+                      help="where weight matters, as for a bed that grains make themselves (0)")
+    test.add_argument("--true-gravity", action="store_true", help="simulated unchanged, instead of over s")
+    parser.add_argument("--want", nargs="+", required=True, metavar="NAME=PERCENT",
+                        help="quantities and the error allowed, such as strain=5 strength=10; of "
+                             + ", ".join(sorted(evidence.read()["quantity"].unique())))
+    parser.add_argument("--diameters", type=float, nargs="+", default=None, metavar="M",
+                        help="to look at (a series)")
+    parser.add_argument("--speed", type=float, default=None, metavar="N",
+                        help="particles times steps in a second of a core, instead of a run of seconds here")
+    parser.add_argument("--lmp", default=None, help="LAMMPS for that run")
+    parser.add_argument("--write", type=Path, default=None, metavar="FILE",
+                        help="include file with the variables of the cheapest diameter that may be used")
+    parser.set_defaults(work=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    powder = Powder(arguments.diameter, arguments.density, arguments.dref or arguments.diameter, arguments.k1,
+                    2.0 * arguments.k1 if arguments.k2 is None else arguments.k2, arguments.kadh, arguments.f0,
+                    arguments.smallest)
+    loading = Loading(arguments.width, arguments.length or arguments.width, arguments.height or arguments.width,
+                      arguments.solid_fraction, *arguments.stress, arguments.rate, arguments.strain,
+                      arguments.gravity)
+    wanted = percentages(arguments.want)
+    table = evidence.read()
+    unknown = sorted(set(wanted) - set(table["quantity"]))
+    if unknown:
+        raise ValueError(f"--want {unknown[0]}: no evidence, there is some for "
+                         f"{', '.join(sorted(table['quantity'].unique()))}")
+    sizes = arguments.diameters or series(powder, loading)
+    too_fine = [d for d in sizes if d < powder.diameter]
+    if too_fine:
+        raise ValueError(f"--diameters {too_fine[0]:g}: allowed are {powder.diameter:g} (the real one) or more")
+    speed = Speed(arguments.speed or measure_speed(workflow.find_lmp(arguments.lmp)))
+    lines = [line(powder, loading, d, wanted, table, speed, not arguments.true_gravity) for d in sizes]
+    print(text(lines, speed))
+    chosen = best(lines)
+    if chosen is None:
+        print("\nNo diameter may be used.")
+        return 3
+    print(f"\nCheapest that may be used: {1e3 * chosen.diameter:.4g} mm")
+    if arguments.write:
+        arguments.write.write_text(include(powder, loading, chosen, not arguments.true_gravity),
+                                   encoding="utf-8")
+        print(f"Include file: {arguments.write}")
+    return 0
+
+
+def measure_speed(lmp: Path) -> float:
+    """Particles times steps in a second, from a specimen of some thousand particles that is pressed."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([str(lmp), "-in", str(INFILES / "in.confined"), "-log", "log.lammps", "-screen", "none",
+                        "-var", "files", str(INFILES), "-var", "d", "2e-3", "-var", "level", "6e3", "-var",
+                        "hold", "1e-3"], cwd=folder, check=True, stdin=subprocess.DEVNULL)
+        loops = re.findall(r"^Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms",
+                           (Path(folder) / "log.lammps").read_text(encoding="utf-8"), re.MULTILINE)
+    # The last ones are of the dense packing, with its contacts.
+    seconds, steps, particles = max(loops[-4:], key=lambda loop: int(loop[1]))
+    return int(steps) * int(particles) / float(seconds)
+
+
+def text(lines: Sequence[Line], speed: Speed) -> str:
+    """For people, a paragraph a diameter."""
+    quantities = list(lines[0].predictions)
+    head = f"{'d (mm)':>8} {'particles':>10} {'step (s)':>9} {'steps':>9} {'core h':>8} {'GB':>6} {'W/d':>6} " \
+           f"{'I':>8} {'d/d':>6} {'Bo':>7}" + "".join(f"  {q[:20]:>20}" for q in quantities) + "  verdict"
+    rows: List[str] = [f"{speed.particle_steps:.3g} particle steps a second and core", "",
+                       head.replace("d/d", "δ/d")]
+    for one in lines:
+        weight = one.numbers["weight"]
+        rows.append(f"{1e3 * one.diameter:>8.4g} {one.particles:>10} {one.time_step:>9.2e} {one.steps:>9} "
+                    f"{one.core_seconds / 3600:>8.2g} {1e-9 * one.memory:>6.2g} "
+                    f"{1 / one.numbers['narrowness']:>6.3g} {one.numbers['inertia']:>8.1e} "
+                    f"{one.numbers['overlap']:>6.3f} {1 / weight if weight else float('inf'):>7.3g}"
+                    + "".join(f"  {_interval(p):>20}" for p in one.predictions.values())
+                    + f"  {'no' if one.objections else 'yes'}")
+    reasons = [(one, reason) for one in lines for reason in one.objections]
+    if reasons:
+        rows += ["", "Why not:"] + [f"  {1e3 * one.diameter:.4g} mm: {reason}" for one, reason in reasons]
+    return "\n".join(rows)
+
+
+def _interval(prediction: evidence.Prediction) -> str:
+    return (f"{100 * prediction.error:+.1f} [{100 * prediction.low:+.1f}, {100 * prediction.high:+.1f}]%")
+
+
+def include(powder: Powder, loading: Loading, chosen: Line, scaled_gravity: bool) -> str:
+    """Variables of in.confined and of in-files that take the same ones."""
+    lines = ["# Written by coarsen plan. Predicted errors against the real diameter, with 90% intervals:"]
+    lines += [f"#   {quantity} {_interval(p)}" for quantity, p in chosen.predictions.items()]
+    lines += [f"variable {name:<9} index {value}" for name, value in (
+        ("d", f"{chosen.diameter:g}"), ("dref", f"{powder.reference:g}"), ("k1", f"{powder.k1:g}"),
+        ("k2", f"{powder.k2:g}"), ("kadh", f"{powder.kadh:g}"), ("f0", f"{powder.f0:g}"),
+        ("density", f"{powder.density:g}"), ("side", f"{loading.width:g}"), ("rate", f"{loading.rate:g}"),
+        ("nref", str(round(loading.particles(chosen.diameter) * (chosen.diameter / powder.reference)**3))))]
+    if loading.gravity:
+        # in.start_loose has gravity over s at every diameter, and takes that of dref.
+        at_reference = loading.gravity * (powder.diameter / powder.reference if scaled_gravity else 1.0)
+        lines += [f"variable gravity   index {at_reference:g}",
+                  f"variable weight    index {'scaled' if scaled_gravity else 'true'}"]
+    return "\n".join(lines) + "\n"

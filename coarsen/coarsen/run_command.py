@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""`coarsen run`: the runs of a study file, and one table of what they say."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from . import study, workflow
+from .options import add_running
+from .results import tidy
+
+
+def add(commands: Any) -> None:
+    """Adds the command to the parser's commands."""
+    parser = commands.add_parser("run", help="the runs of a study file, and one table of what they say",
+                                 description=study.__doc__,
+                                 formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("study", type=Path, help="YAML file")
+    parser.add_argument("--infiles", type=Path, default=None,
+                        help="folder of the in-files (that of the study file)")
+    parser.add_argument("--plan", action="store_true", help="only say what would be run")
+    add_running(parser, "run")
+    parser.set_defaults(work=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    if not arguments.study.is_file():
+        raise FileNotFoundError(f"there is no {arguments.study}")
+    table = study.read_study(arguments.study)
+    infiles, out = (arguments.infiles or arguments.study.parent).resolve(), arguments.out.resolve()
+    absent = sorted({name for name in table["infile"] if not (infiles / name).is_file()})
+    if absent:
+        raise FileNotFoundError(f"{arguments.study}: there is no {infiles / absent[0]}")
+    print("\n".join(f"{group}: {len(rows)} runs" for group, rows in table.groupby("group", sort=False)))
+    if arguments.plan:
+        return 0
+    workflow.run_study(arguments.study, infiles, out, workflow.find_lmp(arguments.lmp), arguments.cores,
+                       arguments.ranks, arguments.snakemake)
+    runs, curves = tidy(table, out, infiles)
+    runs.to_csv(out / "runs.csv", float_format="%.6g")
+    curves.to_csv(out / "curves.csv.gz", index=False, float_format="%.6g")
+    print(f"Tables: {out / 'runs.csv'}, a row a specimen, and {out / 'curves.csv.gz'}")
+    return 0

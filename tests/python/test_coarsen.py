@@ -1,0 +1,391 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""coarsen without LAMMPS: studies, statistics, measuring, predictions and plans."""
+import contextlib
+import io
+import math
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "coarsen"))
+
+from coarsen import check, equivalence, evidence, measure, plan  # noqa: E402
+from coarsen.__main__ import main  # noqa: E402
+from coarsen.numbers import Loading, Powder  # noqa: E402
+from coarsen.options import diameters, percentages  # noqa: E402
+from coarsen.study import BadStudy, read_study, variables  # noqa: E402
+
+
+def study(text):
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "study.yaml"
+        path.write_text(text)
+        return read_study(path)
+
+
+def call(*words):
+    """Status and what was written, errors included."""
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+        try:
+            status = main([str(word) for word in words])
+        except SystemExit as end:
+            status = end.code
+    return status, out.getvalue()
+
+
+class Study(unittest.TestCase):
+    def test_lists_are_combined_and_zipped_lists_are_not(self):
+        table = study("common: {infile: in.a}\n"
+                      "groups:\n  g: {d: [1e-3, 2e-3], zip: {k1: [1, 2, 3], k2: [4, 5, 6]}, e: 0.3}\n")
+        self.assertEqual(len(table), 6)
+        self.assertEqual(table.index[0], "g/d=1e-3,k1=1,k2=4")
+        self.assertEqual(variables(table.iloc[5]), {"d": "2e-3", "k1": "3", "k2": "6", "e": "0.3"})
+
+    def test_a_value_of_several_words_is_one_value(self):
+        table = study("groups:\n  g: {infile: in.a, level: [[16e3, 96e3]], seed: [1, 2]}\n")
+        self.assertEqual(list(table["level"]), ["16e3 96e3"] * 2)
+
+    def test_what_runs_after_names_what_it_needs(self):
+        table = study("groups:\n  g: {infile: in.a, seed: [1, 2], after: {infile: in.b, state: [x, y]}}\n")
+        self.assertEqual(list(table.index), ["g/seed=1", "g/seed=1/state=x", "g/seed=1/state=y",
+                                             "g/seed=2", "g/seed=2/state=x", "g/seed=2/state=y"])
+        self.assertEqual(table.loc["g/seed=2/state=y", "needs"], "g/seed=2")
+        self.assertEqual(variables(table.loc["g/seed=2/state=y"]), {"state": "y"})
+
+    def test_booleans_are_the_words_of_in_files(self):
+        self.assertEqual(variables(study("groups: {g: {infile: in.a, scaled: no}}").iloc[0]), {"scaled": "no"})
+
+    def test_mistakes_are_named(self):
+        for text, said in (("a: 1", "groups"), ("groups: {g: {d: 1}}", "no infile"),
+                           ("groups: {g: {infile: a}}\nmore: 1", "`more` is not allowed"),
+                           ("groups: {g: {infile: a, zip: {a: [1], b: [1, 2]}}}", "unequal lengths"),
+                           ("groups: {g: {infile: a, d: [1, 1]}}", "two runs are named g/d=1"),
+                           ("groups: [", "study.yaml")):
+            with self.subTest(text), self.assertRaisesRegex(BadStudy, said):
+                study(text)
+
+
+class Equivalence(unittest.TestCase):
+    def test_of_an_example_by_hand(self):
+        coarse, fine = [1.02, 1.05, 1.03, 1.06], [1.0, 1.02, 1.01, 1.02]
+        apart = np.log(np.array(coarse) / fine)
+        mean, error = apart.mean(), apart.std(ddof=1) / 2.0
+        reach = 2.353363 * error  # 95% point of Student's t with three degrees of freedom
+        found = equivalence.compare(coarse, fine, 0.05, paired=True)
+        self.assertAlmostEqual(found.difference, math.expm1(mean), places=12)
+        self.assertAlmostEqual(found.low, math.expm1(mean - reach), places=6)
+        self.assertAlmostEqual(found.high, math.expm1(mean + reach), places=6)
+        self.assertEqual(found.verdict, equivalence.EQUIVALENT)
+        self.assertEqual(equivalence.compare(coarse, fine, 0.03, True).verdict, equivalence.OPEN)
+        self.assertEqual(equivalence.compare(coarse, fine, 0.005, True).verdict, equivalence.DIFFERENT)
+
+    def test_is_two_one_sided_tests(self):
+        random = np.random.default_rng(3)
+        for _ in range(50):
+            coarse, fine = np.exp(0.03 * random.standard_normal((2, 5)) + [[0.02], [0.0]])
+            apart, within = np.log(coarse / fine), math.log1p(0.05)
+            p = max(stats.ttest_1samp(apart, -within, alternative="greater").pvalue,
+                    stats.ttest_1samp(apart, within, alternative="less").pvalue)
+            self.assertEqual(equivalence.compare(coarse, fine, 0.05, True).verdict == equivalence.EQUIVALENT,
+                             p < 0.05)
+
+    def test_unpaired_is_welchs(self):
+        coarse, fine = np.array([1.0, 1.1, 1.3]), np.array([1.0, 1.01, 0.99, 1.02, 1.0])
+        found = equivalence.compare(coarse, fine, 0.1, paired=False)
+        interval = stats.ttest_ind(np.log(coarse), np.log(fine), equal_var=False)
+        # p of no difference, from the interval found: error = (high - mean)/t
+        mean = math.log1p(found.difference)
+        self.assertAlmostEqual(mean / found.error, interval.statistic, places=10)
+
+    def test_false_equivalence_is_as_rare_as_it_says(self):
+        # At the very edge of the tolerance one call in twenty may say equivalent.
+        random, said = np.random.default_rng(1), 0
+        for _ in range(2000):
+            coarse, fine = np.exp(0.02 * random.standard_normal((2, 6)) + [[math.log1p(0.05)], [0.0]])
+            said += equivalence.compare(coarse, fine, 0.05, True).verdict == equivalence.EQUIVALENT
+        self.assertLess(said, 0.065 * 2000)
+        self.assertGreater(said, 0.03 * 2000)
+
+    def test_so_many_seeds_would_decide(self):
+        random = np.random.default_rng(2)
+        coarse, fine = np.exp(0.05 * random.standard_normal((2, 4)))
+        needed = equivalence.compare(coarse, fine, 0.05, True).needed
+        apart = np.log(coarse / fine)
+        decided = sum(equivalence.compare(
+            np.exp(apart.mean() + apart.std(ddof=1) * random.standard_normal(needed)), np.ones(needed), 0.05,
+            True).verdict != equivalence.OPEN for _ in range(1000))
+        self.assertGreater(decided, 700)
+        self.assertLess(decided, 950)
+
+    def test_bad_numbers_are_named(self):
+        for arguments, said in ((([1.0], [1.0], 0.05, True), "needed are 2"),
+                                (([1.0, -1.0], [1.0, 1.0], 0.05, True), "above 0"),
+                                (([1.0, 2.0], [1.0, 1.0], 1.5, True), "tolerance is 1.5"),
+                                (([1.0, 2.0, 3.0], [1.0, 1.0], 0.05, True), "no pairs")):
+            with self.subTest(said), self.assertRaisesRegex(ValueError, said):
+                equivalence.compare(*arguments)
+
+
+def results(function, sizes=(1.0, 2.0, 3.0), seeds=5, scatter=0.01):
+    random = np.random.default_rng(4)
+    return pd.DataFrame([{"d": d, "seed": s, "q": function(d) * math.exp(scatter * random.standard_normal())}
+                         for d in sizes for s in range(seeds)])
+
+
+class Check(unittest.TestCase):
+    def test_a_trend_is_followed_to_the_real_diameter(self):
+        found = check.verdicts(results(lambda d: math.exp(-0.05 * d)), {"q": 0.04}, real=0.1)
+        self.assertTrue(found["trend"].all())
+        self.assertTrue((found["against"] == 0.1).all())
+        row = found[found["d"] == 3.0].iloc[0]
+        self.assertAlmostEqual(math.log1p(row["difference"]), -0.05 * 2.9, delta=0.02)
+        self.assertEqual(row["verdict"], equivalence.DIFFERENT)
+
+    def test_no_trend_no_extrapolation(self):
+        found = check.verdicts(results(lambda d: 1.0), {"q": 0.04}, real=0.1)
+        self.assertFalse(found["trend"].any())
+        self.assertTrue((found["against"] == 1.0).all())
+        self.assertEqual(check.overall(found["verdict"]), equivalence.EQUIVALENT)
+
+    def test_two_diameters_have_no_trend(self):
+        found = check.verdicts(results(lambda d: math.exp(-0.05 * d), sizes=(1.0, 2.0)), {"q": 0.2}, real=0.1)
+        self.assertFalse(found["trend"].any())
+
+    def test_overall(self):
+        yes, no, maybe = equivalence.EQUIVALENT, equivalence.DIFFERENT, equivalence.OPEN
+        for seen, said in (([yes, yes], yes), ([yes, no, maybe], no), ([yes, maybe], maybe)):
+            self.assertEqual(check.overall(seen), said)
+
+    def test_results_are_read_from_the_log(self):
+        with tempfile.TemporaryDirectory() as folder:
+            log = Path(folder) / "log.lammps"
+            log.write_text('print "Result strength $(v_s)"\nResult strength 12.5\nResult porosity 0.4\n')
+            self.assertEqual(check.read_results(Path(folder)), {"strength": 12.5, "porosity": 0.4})
+            log.write_text("Result strength inf?\n")
+            with self.assertRaisesRegex(check.NothingToCompare, "result strength is inf?"):
+                check.read_results(Path(folder))
+            log.write_text("nothing\n")
+            with self.assertRaisesRegex(check.NothingToCompare, "no line `Result NAME NUMBER`"):
+                check.read_results(Path(folder))
+
+    def test_an_unknown_quantity_is_named(self):
+        with self.assertRaisesRegex(check.NothingToCompare, "no run has the result z; there are q"):
+            check.verdicts(results(lambda d: 1.0), {"z": 0.1})
+
+    def test_resampling_counts_verdicts(self):
+        table = results(lambda d: 1.0 if d == 1.0 else 1.2, sizes=(1.0, 2.0), seeds=12)
+        found = check.resample(table, "q", 2.0, 1.0, 5, 200, 0.05, True)
+        self.assertEqual(found[equivalence.DIFFERENT], 200)
+        table = results(lambda d: 1.0, sizes=(1.0, 2.0), seeds=12)
+        self.assertEqual(check.resample(table, "q", 2.0, 1.0, 5, 200, 0.05, True)[equivalence.EQUIVALENT], 200)
+
+
+class Measure(unittest.TestCase):
+    def curve(self, slip=False):
+        """Stress over strain of 1e6 Pa, 2e6 on unloading, strain counted from 5 kPa."""
+        step = np.arange(201)
+        strain = np.where(step <= 100, step * 1e-3, 0.1 - (step - 100) * 2.5e-4)
+        stress = np.where(step <= 100, strain * 1e6, 1e5 - (0.1 - strain) * 2e6 * 1.0)
+        if slip:
+            stress[50] = stress[48]
+        return pd.DataFrame({
+            "step": step, "time": step * 1e-2, "stage": np.where(step <= 100, "load", "unload"),
+            "bulk_strain": strain, "stress": stress, "bulk_porosity": 0.5 - strain,
+            "coordination": 5.0 + 10.0 * strain, "stress_x": 0.5 * stress, "stress_y": 0.5 * stress})
+
+    def test_strain_counts_from_the_preload(self):
+        load = measure.loading(self.curve(), 5500.0)
+        self.assertAlmostEqual(load["stress"].iloc[0], 5500.0)
+        self.assertEqual(load["strain"].iloc[0], 0.0)
+        self.assertAlmostEqual(measure.at_stress(load, 55e3, "strain"), 1.0 - (1.0 - 0.055) / (1.0 - 0.0055),
+                               places=9)
+        self.assertAlmostEqual(measure.at_stress(load, 55e3, "bulk_porosity"), 0.445)
+
+    def test_a_grain_that_slips_changes_little(self):
+        one, other = (measure.at_stress(measure.loading(self.curve(slip), 5e3), 48.5e3, "strain")
+                      for slip in (False, True))
+        self.assertAlmostEqual(one, other, delta=2e-3)
+
+    def test_no_rise_through_the_preload_is_an_error(self):
+        with self.assertRaisesRegex(measure.BadRun, "does not rise through the preload of 200000 Pa"):
+            measure.loading(self.curve(), 2e5)
+
+    def test_moduli(self):
+        found = measure.modulus(self.curve())
+        # strain counts from the length at the first sample of unloading
+        self.assertAlmostEqual(found["constrained_modulus"], 2e6 * 0.90025, delta=1e-3)
+        self.assertAlmostEqual(found["bulk_modulus"], 2e6 * 0.90025 * 2.0 / 3.0, delta=1e-3)
+        self.assertAlmostEqual(found["lateral_ratio"], 0.5)
+
+    def test_inertial_number(self):
+        load = measure.loading(self.curve(), 5e3)
+        rate = 0.1  # 1e-3 in 1e-2 s
+        # 21 samples from 5 kPa on have a mean stress of 15 kPa
+        self.assertAlmostEqual(measure.inertial_number(load, 1e-3, 2000.0),
+                               rate * 1e-3 * math.sqrt(2000.0 / 15e3), delta=1e-7)
+
+    def test_strength_is_the_top_of_the_smooth_curve(self):
+        strain = np.linspace(0.0, 0.04, 201)
+        top = 1000.0 - 1e6 * (strain - 0.02)**2
+        noise = 30.0 * np.random.default_rng(5).standard_normal(len(strain))
+        found = measure.strength(strain, top + noise)
+        self.assertAlmostEqual(found["strength"], 1000.0, delta=10.0)
+        self.assertAlmostEqual(found["strain_at_peak"], 0.02, delta=1e-3)
+        self.assertGreater((top + noise).max(), 1050.0)  # which the largest sample is not
+
+
+class Evidence(unittest.TestCase):
+    def test_slopes_of_a_known_law(self):
+        random = np.random.default_rng(6)
+        runs = pd.DataFrame([{"narrowness": w, "weight": b, "q": 3.0 * math.exp(
+            -2.0 * w + 0.5 * b + 0.002 * random.standard_normal())}
+            for w in (0.02, 0.05, 0.1) for b in (0.1, 0.2) for _ in range(5)])
+        found = evidence.slopes_of(runs, "made", ["q"], ["narrowness", "weight", "overlap"][:2]).set_index("number")
+        self.assertAlmostEqual(found.loc["narrowness", "slope"], -2.0, delta=3 * found.loc["narrowness", "error"])
+        self.assertAlmostEqual(found.loc["weight", "slope"], 0.5, delta=3 * found.loc["weight", "error"])
+        self.assertLess(found.loc["narrowness", "error"], 0.03)
+        self.assertEqual(found.loc["narrowness", "most"], 0.1)
+
+    def test_of_means_with_errors(self):
+        means = pd.DataFrame({"narrowness": [0.0, 1.0], "q": [1.0, math.e], "q_error": [0.3, 0.4]})
+        self.assertTrue(evidence.slopes_of(means, "made", ["q"], ["narrowness"]).empty)  # nothing to judge by
+        means = pd.DataFrame({"narrowness": [0.0, 0.0, 1.0], "q": [1.0, 1.0, math.e], "q_error": [0.3, 0.3, 0.4]})
+        found = evidence.slopes_of(means, "made", ["q"], ["narrowness"]).iloc[0]
+        self.assertAlmostEqual(found["slope"], 1.0)
+        self.assertAlmostEqual(found["error"], math.sqrt(0.3**2 / 2 + 0.4**2))
+
+    TABLE = pd.DataFrame([
+        {"family": "a", "study": "a", "quantity": "q", "number": "narrowness", "slope": -1.0, "error": 0.1,
+         "least": 0.02, "most": 0.1, "misfit": 0.0},
+        {"family": "b", "study": "b", "quantity": "q", "number": "narrowness", "slope": -2.0, "error": 0.1,
+         "least": 0.02, "most": 0.15, "misfit": 0.0}])
+
+    def test_the_mean_of_studies_has_their_scatter(self):
+        found = evidence.effect(self.TABLE, "q", "narrowness")
+        self.assertAlmostEqual(found.slope, -1.5)
+        # DerSimonian and Laird with two studies of variance v: tau^2 = (difference^2/2) - v
+        self.assertAlmostEqual(found.scatter**2, 0.5 - 0.01)
+        self.assertAlmostEqual(found.error**2, (0.49 + 0.01) / 2)
+        self.assertEqual(found.most, 0.15)
+
+    def test_studies_of_the_same_packings_count_once(self):
+        table = pd.concat([self.TABLE[:1]] * 10).assign(study=list("abcdefghij"))
+        found = evidence.effect(table, "q", "narrowness")
+        self.assertAlmostEqual(found.error, 0.1)
+        self.assertAlmostEqual(found.scatter, 0.0)
+
+    def test_prediction(self):
+        found = evidence.predict(self.TABLE, "q", {"narrowness": (0.01, 0.11)})
+        spread = math.sqrt(0.1**2 * (0.49 + 0.25))
+        self.assertAlmostEqual(found.error, math.expm1(-0.15))
+        self.assertAlmostEqual(found.low, math.expm1(-0.15 - stats.t.ppf(0.95, 1) * spread))
+        self.assertEqual(found.outside, ())
+
+    def test_what_is_outside_the_evidence_is_named(self):
+        self.assertIn("d/W, diameter over width of 0.2, evidence for q ends at 0.15",
+                      evidence.predict(self.TABLE, "q", {"narrowness": (0.01, 0.2)}).outside)
+        self.assertIn("no evidence how q depends on delta/d, overlap over diameter",
+                      evidence.predict(self.TABLE, "q", {"overlap": (0.01, 0.02)}).outside)
+        self.assertEqual(evidence.predict(self.TABLE, "q", {"overlap": (0.02, 0.02)}).outside, ())
+        self.assertEqual(evidence.predict(self.TABLE, "q", {"inertia": (1e-5, 9e-4)}).outside, ())
+        self.assertEqual(len(evidence.predict(self.TABLE, "q", {"inertia": (1e-5, 2e-3)}).outside), 1)
+
+    def test_the_packages_table_is_whole(self):
+        table = evidence.read()
+        self.assertFalse(table.isna().any().any())
+        self.assertTrue(set(table["number"]) <= set(evidence.NUMBERS))
+        self.assertTrue((table["error"] > 0.0).all())
+
+
+class Plan(unittest.TestCase):
+    powder = Powder(1e-3, 2000.0, 1e-3, 5e3, 1e4, 5e3, -1e-4)
+    loading = Loading(0.03, 0.03, 0.03, 0.6, 5e3, 1e5, 0.5, 0.2, 9.81)
+
+    def test_time_step_is_that_of_the_in_files(self):
+        # 0.95 times 0.2 sqrt(m/k2)
+        mass = 2000.0 * math.pi / 6.0 * 1e-9
+        self.assertAlmostEqual(self.powder.time_step(1e-3), 0.19 * math.sqrt(mass / 1e4))
+        self.assertAlmostEqual(self.powder.time_step(2e-3) / self.powder.time_step(1e-3), 2.0)
+
+    def test_what_scaling_keeps(self):
+        small, large = (plan.numbers_of(self.powder, self.loading, d, True) for d in (1e-3, 2e-3))
+        self.assertAlmostEqual(large["narrowness"] / small["narrowness"], 2.0)
+        self.assertAlmostEqual(large["inertia"] / small["inertia"], 2.0)
+        self.assertAlmostEqual(large["overlap"], small["overlap"])
+        self.assertAlmostEqual(large["weight"], small["weight"])
+        self.assertAlmostEqual(plan.numbers_of(self.powder, self.loading, 2e-3, False)["weight"],
+                               2.0 * small["weight"])
+
+    def test_particles_and_steps(self):
+        self.assertEqual(self.loading.particles(1e-3), round(0.6 * 27e-6 / (math.pi / 6 * 1e-9)))
+        self.assertEqual(self.loading.steps(1e-6), 400000)
+
+    def test_the_cheapest_without_objection_is_taken(self):
+        table = Evidence.TABLE
+        lines = [plan.line(self.powder, self.loading, d, {"q": 0.9}, table, plan.Speed(1e7), True)
+                 for d in (1e-3, 2e-3, 3e-3, 6e-3)]
+        self.assertEqual([bool(one.objections) for one in lines], [False, False, False, True])
+        self.assertEqual(plan.best(lines).diameter, 3e-3)
+        self.assertIsNone(plan.best(lines[3:]))
+        self.assertAlmostEqual(lines[1].core_seconds, lines[1].particles * lines[1].steps / 1e7)
+
+    def test_bad_values_are_named(self):
+        for make, said in ((lambda: Powder(1e-3, 2000, 1e-3, 5e3, 4e3, 0, 0), "k2 is 4000, allowed is k1"),
+                           (lambda: Powder(1e-3, 2000, 1e-3, 5e3, 1e4, 0, 1), "f0 is 1, allowed are numbers 0 or less"),
+                           (lambda: Powder(0.0, 2000, 1e-3, 5e3, 1e4, 0, 0), "diameter is 0"),
+                           (lambda: Loading(1, 1, 1, 0.6, 2, 1, 1, 1, 0), "rising"),
+                           (lambda: Loading(1, 1, 1, 1.2, 1, 2, 1, 1, 0), "solid fraction is 1.2")):
+            with self.subTest(said), self.assertRaisesRegex(ValueError, said):
+                make()
+
+
+class Commands(unittest.TestCase):
+    words = ["plan", "--diameter", "50e-6", "--density", "2700", "--k1", "250", "--kadh", "250", "--f0", "-1e-7",
+             "--width", "0.03", "--stress", "5e3", "1e5", "--rate", "0.05", "--speed", "9e6"]
+
+    def test_plan_writes_an_include_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "in.coarse"
+            status, text = call(*self.words, "--want", "porosity=5", "--diameters", "1e-3", "2e-3", "--write", path)
+            self.assertEqual(status, 0, text)
+            self.assertIn("Cheapest that may be used: 2 mm", text)
+            written = path.read_text()
+        self.assertRegex(written, r"variable d +index 0\.002\n")
+        self.assertRegex(written, r"variable f0 +index -1e-07\n")
+
+    def test_plan_without_a_diameter_says_so(self):
+        status, text = call(*self.words, "--want", "porosity=0.01", "--diameters", "2e-3")
+        self.assertEqual(status, 3, text)
+        self.assertIn("No diameter may be used", text)
+        self.assertIn("2 mm: porosity is off by", text)
+
+    def test_mistakes_are_named(self):
+        for words, said in (
+                ([*self.words, "--want", "colour=5"], "--want colour: no evidence, there is some for"),
+                ([*self.words, "--want", "porosity"], "--want porosity: allowed is NAME=PERCENT"),
+                ([*self.words, "--want", "porosity=200"], "allowed is NAME=PERCENT with more than 0"),
+                ([*self.words, "--want", "porosity=5", "--diameters", "1e-5"], "--diameters 1e-05: allowed are 5e-05"),
+                (["check", "in.none", "--diameters", "1", "2", "--want", "a=1"], "there is no in.none"),
+                (["check", __file__, "--diameters", "1", "--want", "a=1"], "allowed are two or more, each once"),
+                (["check", __file__, "--diameters", "1", "2", "--want", "a=1", "--seeds", "1"], "--seeds is 1"),
+                (["run", "none.yaml"], "there is no none.yaml")):
+            with self.subTest(said):
+                status, text = call(*words)
+                self.assertEqual(status, 1, text)
+                self.assertIn(said, text)
+                self.assertNotIn("Traceback", text)
+
+    def test_options(self):
+        self.assertEqual(diameters([2.0, 1.0]), [1.0, 2.0])
+        self.assertEqual(percentages(["a=5", "b=2.5%"]), {"a": 0.05, "b": 0.025})
+
+
+if __name__ == "__main__":
+    unittest.main()
