@@ -12,7 +12,8 @@ build=${BUILD_DIR:-$root/build}
 
 packages=(cmake ninja-build g++ libopenmpi-dev openmpi-bin libeigen3-dev libgtest-dev
     libbenchmark-dev libpng-dev python3 python3-numpy python3-scipy
-    python3-matplotlib python3-meshio python3-pandas python3-statsmodels python3-yaml snakemake
+    python3-matplotlib python3-meshio python3-pandas python3-statsmodels python3-yaml python3-jinja2
+    python3-plotly snakemake
     dpkg-dev xz-utils
     ca-certificates)
 

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from .evidence import NUMBERS, Prediction, predict
-from .numbers import Loading, Powder
+from .dimensionless import Loading, Powder
 
 #: Steps of a geometric series of diameters that are tried when none are named.
 SERIES = 8

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, List, Sequence
 
 from . import evidence, workflow
-from .numbers import Loading, Powder
+from .dimensionless import Loading, Powder
 from .options import percentages
 from .plan import Line, Speed, best, line, series
 

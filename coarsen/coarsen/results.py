@@ -40,7 +40,9 @@ def tidy(table: pd.DataFrame, out: Path, infiles: Path) -> Tuple[pd.DataFrame, p
         rows.append({"run": run, "group": row["group"], **_numbers(given), **measured,
                      "rained_porosity": _rained(out / run), "seconds": _seconds(out / run)})
         load = measure.loading(measure.read_curve(out / run / "curve.csv"), PRELOAD * packed, run)
-        curves.append(measure.curve_of(load, float(given["level"].split()[-1])).assign(run=run))
+        # The platen lags: the last level is not always reached while loading.
+        curves.append(measure.curve_of(load, min(float(given["level"].split()[-1]), load["stress"].max()))
+                      .assign(run=run))
     if not rows:
         raise measure.BadRun(f"{out}: no run of the study is finished")
     return pd.DataFrame(rows).set_index("run"), pd.concat(curves, ignore_index=True)

@@ -36,14 +36,14 @@ def run_study(study: Path, infiles: Path, out: Path, lmp: Path, cores: int, rank
 
     :param more: further arguments of Snakemake, such as --profile slurm
     :raise NotInstalled: without Snakemake
-    :raise subprocess.CalledProcessError: when a run failed, after the others have ended
+    :raise subprocess.CalledProcessError: when a run failed, after those that had begun have ended
     """
     snakemake = shutil.which("snakemake")
     if snakemake is None:
         raise NotInstalled("no snakemake on the path; on Debian: apt-get install snakemake")
     out.mkdir(parents=True, exist_ok=True)
     command = [snakemake, "--snakefile", str(SNAKEFILE), "--directory", str(out), "--cores", str(cores),
-               "--keep-going", "--rerun-incomplete", "--quiet", "rules", *more, "--config",
+               "--rerun-incomplete", "--quiet", "rules", *more, "--config",
                f"study={study.resolve()}", f"infiles={infiles.resolve()}", f"out={out.resolve()}",
                f"lmp={lmp}", f"ranks={ranks}"]
     subprocess.run(command, check=True, env={**os.environ, **_mpi_settings()}, stdin=subprocess.DEVNULL)

@@ -15,9 +15,9 @@ from scipy import stats
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "coarsen"))
 
-from coarsen import check, equivalence, evidence, measure, plan  # noqa: E402
+from coarsen import check, equivalence, evidence, measure, plan, report  # noqa: E402
 from coarsen.__main__ import main  # noqa: E402
-from coarsen.numbers import Loading, Powder  # noqa: E402
+from coarsen.dimensionless import Loading, Powder  # noqa: E402
 from coarsen.options import diameters, percentages  # noqa: E402
 from coarsen.study import BadStudy, read_study, variables  # noqa: E402
 
@@ -344,6 +344,41 @@ class Plan(unittest.TestCase):
                            (lambda: Loading(1, 1, 1, 1.2, 1, 2, 1, 1, 0), "solid fraction is 1.2")):
             with self.subTest(said), self.assertRaisesRegex(ValueError, said):
                 make()
+
+
+class Report(unittest.TestCase):
+    def runs(self):
+        rows = [{"run": f"g/d={d},seed={s}", "group": "g", "d": d, "scaled": "yes", "seed": float(s), "mu": 0.5,
+                 "strain": 0.02 + 0.001 * s, "strength_96e3": 1e4 * d * (1 + 0.01 * s)}
+                for d in (1.0, 2.0) for s in (1, 2, 3)]
+        curves = [pd.DataFrame({"stress": [1.0, 2.0], "strain": [0.0, 0.01 * s], "porosity": [0.4, 0.39],
+                                "coordination": [5.0, 6.0], "run": f"g/d={d},seed={s}"})
+                  for d in (1.0, 2.0) for s in (1, 2, 3)]
+        return pd.DataFrame(rows).set_index("run"), pd.concat(curves)
+
+    def test_means_are_over_the_seeds(self):
+        runs, _ = self.runs()
+        self.assertEqual(report.varied(runs), ["d"])
+        means = report.means(runs)
+        self.assertEqual(list(means["seeds"]), [3, 3])
+        self.assertAlmostEqual(means.loc[2.0, "strength_96e3"], 2.04e4)
+        self.assertAlmostEqual(means.loc[2.0, "strength_96e3_error"], 200.0 / math.sqrt(3))
+
+    def test_is_one_file_with_everything(self):
+        runs, curves = self.runs()
+        with tempfile.TemporaryDirectory() as folder:
+            picture = Path(folder) / "g/d=1.0,seed=1/after/crush.500.png"
+            picture.parent.mkdir(parents=True)
+            picture.write_bytes(b"not really a picture")
+            path = Path(folder) / "report.html"
+            report.write(path, "A <title>", runs, curves, Path(folder),
+                         pd.DataFrame({"quantity": ["strain"], "verdict": ["equivalent"]}))
+            text = path.read_text()
+        self.assertIn("A &lt;title&gt;", text)
+        for said in ('"name":"d 1"', '"name":"d 2"', "strength after 96e3 Pa", "<td>equivalent</td>",
+                     "2.04e+04 ± 1.2e+02", "seed=1: after failure"):
+            self.assertIn(said, text)
+        self.assertNotRegex(text[-200000:], r'(src|href)="https?:')
 
 
 class Commands(unittest.TestCase):
