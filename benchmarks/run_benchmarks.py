@@ -15,7 +15,7 @@ from typing import Callable, Dict, List, Mapping, Optional, Sequence
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "examples" / "scale_collapse"),
-                str(HERE.parent / "examples")]
+                str(HERE.parent / "examples"), str(HERE.parent / "coarsen")]
 
 try:
     import numpy  # noqa: F401
@@ -23,13 +23,12 @@ try:
 except ImportError as missing:
     sys.exit(f"{sys.executable} has no {missing.name}; benchmarks/run.sh finds a Python that has")
 
-from collapse.cases import seeds_per_diameter  # noqa: E402
-from collapse.curves import BadCurve  # noqa: E402
-from collapse.runs import RunFailed, find_lmp  # noqa: E402
+from coarsen.measure import BadRun  # noqa: E402
+from coarsen.workflow import NotInstalled, find_lmp  # noqa: E402
 
 from bench import (cases, cost, diameters, instructions, kernel, machine,  # noqa: E402
                    many_particles, many_types, memory, report, scaling, walls)
-from bench.lammps import Program, has_pair_style, usable_cores  # noqa: E402
+from bench.lammps import Program, RunFailed, has_pair_style, usable_cores  # noqa: E402
 from bench.lammps_log import BadLog  # noqa: E402
 from bench.output import write_csv  # noqa: E402
 
@@ -118,11 +117,12 @@ def run_scaling(s: Session) -> None:
 
 
 def run_diameters(s: Session) -> None:
-    """wall time of one test at equal strain against the particles' diameter"""
+    """time of one test against the particles' diameter"""
     sizes = [2.0e-3, 2.5e-3, 3.0e-3] if s.quick else [1.0e-3, 1.25e-3, 1.5e-3, 2.0e-3, 2.5e-3,
                                                       3.0e-3]
-    rows, runs = diameters.measure(
-        s.program, sizes, seeds_per_diameter(sizes, [1] if s.quick else []), s.work / "diameters")
+    # more for coarse diameters, whose packings scatter more and cost less
+    seeds = [1 if s.quick else min(8, int(2.0 * (d / min(sizes))**2 + 1e-9)) for d in sizes]
+    rows, runs = diameters.measure(s.program, sizes, seeds, s.work / "diameters")
     s.write("diameters", runs, diameters.table(rows))
     diameters.plot(rows, s.results / "diameters.png")
 
@@ -213,7 +213,7 @@ def main(words: Optional[Sequence[str]] = None) -> int:
         for folder in (results, work):
             folder.mkdir(parents=True, exist_ok=True)
         session = Session(
-            Program(find_lmp(arguments.lmp, [build / "lmp"]), arguments.mpirun,
+            Program(find_lmp(arguments.lmp or build / "lmp"), arguments.mpirun,
                     not arguments.no_bind),
             build, Path(machine.configured(build)["lammps_source_path"]), work, results,
             machine.describe(build, HERE.parent, arguments.mpirun,
@@ -231,7 +231,7 @@ def main(words: Optional[Sequence[str]] = None) -> int:
     except KeyboardInterrupt:
         print("\nStopped.")
         return 130
-    except (RunFailed, BadLog, BadCurve, OSError, ValueError,
+    except (RunFailed, NotInstalled, BadLog, BadRun, OSError, ValueError,
             subprocess.CalledProcessError) as error:
         print(f"\nrun_benchmarks.py: {error}", file=sys.stderr)
         return 1

@@ -11,14 +11,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Mapping, Sequence
 
-from collapse import mpi
-from collapse.logs import tail
-from collapse.runs import RunFailed
+from coarsen.workflow import mpi_settings
 
 LOG = "log.lammps"
 SCREEN = "screen.txt"
 # LAMMPS's own output is buffered, so other output can appear in its midst
 _PEAK = re.compile(r"VmHWM:\s*(\d+) kB")
+
+
+class RunFailed(RuntimeError):
+    """A LAMMPS run failed; the message names it and shows how its log ends."""
+
+
+def tail(path: Path, lines: int = 20) -> List[str]:
+    """The last lines of a file, none if there is no file."""
+    return path.read_text(encoding="utf-8", errors="replace").splitlines()[-lines:] if path.is_file() else []
 
 
 def usable_cores() -> List[int]:
@@ -79,7 +86,7 @@ def command(program: Program, infile: Path, folder: Path, variables: Mapping[str
 
 
 def environment(program: Program, parallel: Parallel = Parallel()) -> Dict[str, str]:
-    settings = {**mpi.settings(), "OMP_NUM_THREADS": str(max(1, parallel.threads))}
+    settings = {**mpi_settings(), "OMP_NUM_THREADS": str(max(1, parallel.threads))}
     if parallel.cores <= len(usable_cores()):
         del settings["OMPI_MCA_mpi_yield_when_idle"]    # it would cost time, and is not needed
     if program.bind and parallel.threads:

@@ -13,7 +13,7 @@ import numpy as np  # noqa: E402
 from matplotlib.ticker import (FormatStrFormatter, LogLocator, NullFormatter,  # noqa: E402
                                NullLocator)
 
-from collapse.report import COLOURS  # noqa: E402
+from analysis.figures import COLOURS  # noqa: E402
 
 from .statistics import Median, Power  # noqa: E402
 

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from typing import List, Optional, Sequence
 
-from . import check_command, plan_command, report_command, run_command
+from . import calibrate_command, check_command, plan_command, report_command, run_command
 
 _NEGATIVE = re.compile(r"^-(\d+\.?\d*|\.\d+)e[+-]?\d+$", re.IGNORECASE)
 
@@ -17,7 +17,8 @@ def main(words: Optional[Sequence[str]] = None) -> int:
     """:return: exit status: 0, that of the command, or 1 after an error that a user can correct"""
     parser = argparse.ArgumentParser(prog="coarsen", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for command in (plan_command, check_command, run_command, report_command):
+    for command in (plan_command, check_command, calibrate_command, run_command,
+                    report_command):
         command.add(commands)
     arguments = parser.parse_args(_with_negative_numbers(sys.argv[1:] if words is None else words))
     try:

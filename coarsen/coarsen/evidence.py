@@ -109,9 +109,12 @@ class Prediction:
     outside: Tuple[str, ...]
 
 
-def predict(table: pd.DataFrame, quantity: str, changes: Mapping[str, Tuple[float, float]]) -> Prediction:
-    """:param changes: numbers of the real and of the coarse particles, by name"""
-    total, variance, outside, freedom = 0.0, 0.0, [], math.inf
+def predict(table: pd.DataFrame, quantity: str, changes: Mapping[str, Tuple[float, float]],
+            of_coefficients: float = 0.0) -> Prediction:
+    """:param changes: numbers of the real and of the coarse particles, by name
+    :param of_coefficients: relative error that the coefficients leave in the quantity
+    """
+    total, variance, outside, freedom = 0.0, of_coefficients**2, [], math.inf
     for number, (fine, coarse) in changes.items():
         if math.isclose(fine, coarse, rel_tol=1e-9):
             continue

@@ -7,13 +7,16 @@ stress last rises through it on loading; axial stress is the mean of both platen
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Dict, Union
+from typing import Dict, Tuple, Union
 
 import numpy as np
 import pandas as pd
 
 #: Stress over that of the last level where quantities are compared, and where unloading is elastic.
 COMPARED, ELASTIC = 0.9, (0.5, 0.95)
+#: Columns of curve.csv that curves keep, by their names here.
+COLUMNS = {"strain": "strain", "porosity": "bulk_porosity", "coordination": "coordination",
+           "bulk_coordination": "bulk_coordination"}
 #: Points of a curve, evenly in stress from the preload to the last level.
 POINTS = 100
 #: Samples, least and most, of the running mean that finds the peak of crushing, and part of that peak
@@ -61,14 +64,36 @@ def at_stress(load: pd.DataFrame, stress: Union[float, np.ndarray], quantity: st
 def curve_of(load: pd.DataFrame, top: float, points: int = POINTS) -> pd.DataFrame:
     """The curve at stresses that runs have in common: strain, porosity, coordination over stress."""
     grid = np.linspace(load["stress"].iloc[0], top, points)
-    return pd.DataFrame({"stress": grid, **{
-        name: at_stress(load, grid, column) for name, column in (
-            ("strain", "strain"), ("porosity", "bulk_porosity"), ("coordination", "coordination"))}})
+    return _over_stress(load, grid)
 
 
-def stress_at_strain(load: pd.DataFrame, strain: float) -> float:
-    rising = load.sort_values("strain", kind="stable")
-    return float(np.interp(strain, rising["strain"], rising["stress"]))
+def unloading_of(samples: pd.DataFrame, load: pd.DataFrame, points: int = POINTS) -> pd.DataFrame:
+    """The same from the reversal down, with strain counted as on loading. Empty where it was not unloaded."""
+    unload = samples[samples["stage"] == "unload"]
+    if unload.empty:
+        return pd.DataFrame(columns=["stress", *COLUMNS])
+    # The branch begins with the sample before its own first one, which comes a little after the reversal.
+    rows = samples.loc[[unload.index[0] - 1, *unload.index]]
+    shift = (1.0 - load["strain"].iloc[-1]) / (1.0 - load["bulk_strain"].iloc[-1])
+    rows = rows.assign(strain=1.0 - shift * (1.0 - rows["bulk_strain"]))
+    return _over_stress(rows, np.linspace(rows["stress"].iloc[0], rows["stress"].min(), points))
+
+
+def crushing_of(samples: pd.DataFrame, points: int = 2 * POINTS) -> pd.DataFrame:
+    """Stress over strain of crushing, evenly in strain."""
+    strain, stress = _crushing(samples)
+    grid = np.linspace(strain[0], strain[-1], points)
+    return pd.DataFrame({"strain": grid, "stress": np.interp(grid, strain, stress)})
+
+
+def _over_stress(rows: pd.DataFrame, grid: np.ndarray) -> pd.DataFrame:
+    return pd.DataFrame({"stress": grid, **{name: at_stress(rows, grid, column)
+                                            for name, column in COLUMNS.items() if column in rows}})
+
+
+def _crushing(samples: pd.DataFrame) -> Tuple[np.ndarray, np.ndarray]:
+    crush, free = (samples[samples["stage"] == stage] for stage in ("crush", "free"))
+    return 1.0 - crush["height"].to_numpy() / free["height"].iloc[-1], crush["stress"].to_numpy()
 
 
 def modulus(samples: pd.DataFrame, place: str = "curve") -> Dict[str, float]:
@@ -82,8 +107,11 @@ def modulus(samples: pd.DataFrame, place: str = "curve") -> Dict[str, float]:
     if part.sum() < 3:
         raise BadRun(f"{place}: unloading has {part.sum()} samples between {ELASTIC[0]:g} and "
                      f"{ELASTIC[1]:g} of its first stress, needed are 3")
+    axial_modulus = {"constrained_modulus": np.polyfit(strain[part], axial[part], 1)[0]}
+    if "stress_x" not in unload:  # in.oedometer does not write it
+        return axial_modulus
     lateral = unload["stress_x"] + unload["stress_y"]
-    return {"constrained_modulus": np.polyfit(strain[part], axial[part], 1)[0],
+    return {**axial_modulus,
             "bulk_modulus": np.polyfit(strain[part], (axial + lateral)[part] / 3.0, 1)[0],
             "lateral_ratio": lateral.iloc[0] / (2.0 * axial.iloc[0])}
 
@@ -118,25 +146,37 @@ def measure_confined(folder: Path, diameter: float, density: float, preload: flo
     """A row of a confined test: see the names in README.md."""
     samples = read_curve(folder / "curve.csv")
     load = loading(samples, preload, str(folder))
-    top = load["stress"].max()
-    at = COMPARED * top
+    at = COMPARED * load["stress"].max()
     last = samples[samples["stage"].isin(("load", "hold"))].iloc[-1]
     return {"strain": float(at_stress(load, at, "strain")),
             "porosity_before": float(load["bulk_porosity"].iloc[0]),
-            "porosity": float(at_stress(load, at, "bulk_porosity")),
-            "coordination": float(at_stress(load, at, "coordination")),
-            "bulk_coordination": float(at_stress(load, at, "bulk_coordination")),
+            **{name: float(at_stress(load, at, column)) for name, column in COLUMNS.items()
+               if column in load and name != "strain"},
             **modulus(samples, str(folder)),
             "overlap": float(last["mean_overlap"]),
-            "inertial_number": inertial_number(load, diameter, density)}
+            "inertial_number": inertial_number(load, diameter, density) if "time" in load else np.nan}
 
 
 def measure_crushed(folder: Path) -> Dict[str, float]:
     """A row of an unconfined test."""
     samples = read_curve(folder / "curve.csv")
-    free, crush = (samples[samples["stage"] == stage] for stage in ("free", "crush"))
-    if len(free) == 0 or len(crush) < SMOOTHED[0]:
-        raise BadRun(f"{folder}: {len(crush)} samples of crushing, needed are {SMOOTHED[0]}")
-    strain = 1.0 - crush["height"].to_numpy() / free["height"].iloc[-1]
-    return {**strength(strain, crush["stress"].to_numpy()),
-            "porosity_unloaded": float(free["bulk_porosity"].iloc[-1])}
+    free = samples[samples["stage"] == "free"]
+    count = int((samples["stage"] == "crush").sum())
+    if len(free) == 0 or count < SMOOTHED[0]:
+        raise BadRun(f"{folder}: {count} samples of crushing, needed are {SMOOTHED[0]}")
+    strain, stress = _crushing(samples)
+    before = free.iloc[-1]
+    return {**strength(strain, stress),
+            # Loose specimens harden without a peak, and are compared here.
+            "stress_at_5_percent": (float(np.polynomial.Polynomial.fit(*_around(strain, stress, 0.05), 1)(0.05))
+                                    if strain.max() > 0.055 else np.nan),
+            "largest_strain": float(strain[-1]),
+            "porosity_unloaded": float(before["bulk_porosity"]),
+            "coordination_unloaded": float(before["coordination"]),
+            "coordination_uncut": float(read_curve(folder / "unload.csv")["coordination"].iloc[-1]),
+            "plastic_overlap": float(before["plastic_overlap"])}
+
+
+def _around(x: np.ndarray, y: np.ndarray, middle: float, reach: float = 5e-3) -> Tuple[np.ndarray, np.ndarray]:
+    near = np.abs(x - middle) <= reach
+    return x[near], y[near]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Sequence
+from types import MappingProxyType
+from typing import Dict, List, Mapping, Optional, Sequence
 
 import numpy as np
 import pandas as pd
@@ -51,10 +52,13 @@ def numbers_of(powder: Powder, loading: Loading, diameter: float, scaled_gravity
 
 
 def line(powder: Powder, loading: Loading, diameter: float, wanted: Dict[str, float], table: pd.DataFrame,
-         speed: Speed, scaled_gravity: bool) -> Line:
-    """:param wanted: error allowed, by quantity"""
+         speed: Speed, scaled_gravity: bool, calibrated: Mapping[str, float] = MappingProxyType({})) -> Line:
+    """:param wanted: error allowed, by quantity
+    :param calibrated: relative error that the coefficients leave in quantities, by quantity
+    """
     real, coarse = (numbers_of(powder, loading, d, scaled_gravity) for d in (powder.diameter, diameter))
-    predictions = {quantity: predict(table, quantity, {n: (real[n], coarse[n]) for n in NUMBERS})
+    predictions = {quantity: predict(table, quantity, {n: (real[n], coarse[n]) for n in NUMBERS},
+                                     calibrated.get(quantity, 0.0))
                    for quantity in wanted}
     objections = [reason for p in predictions.values() for reason in p.outside]
     objections += [f"{quantity} is off by {100 * p.low:+.1f} to {100 * p.high:+.1f}%, allowed are "

@@ -7,7 +7,9 @@ import re
 import subprocess
 import tempfile
 from pathlib import Path
-from typing import Any, List, Sequence
+from typing import Any, Dict, List, Sequence
+
+import pandas as pd
 
 from . import evidence, workflow
 from .dimensionless import Loading, Powder
@@ -57,6 +59,8 @@ def add(commands: Any) -> None:
     parser.add_argument("--speed", type=float, default=None, metavar="N",
                         help="particles times steps in a second of a core, instead of a run of seconds here")
     parser.add_argument("--lmp", default=None, help="LAMMPS for that run")
+    parser.add_argument("--calibrated", type=Path, default=None, metavar="CSV",
+                        help="calibration.csv of coarsen calibrate: the errors of its coefficients are added")
     parser.add_argument("--write", type=Path, default=None, metavar="FILE",
                         help="include file with the variables of the cheapest diameter that may be used")
     parser.set_defaults(work=run)
@@ -80,7 +84,9 @@ def run(arguments: argparse.Namespace) -> int:
     if too_fine:
         raise ValueError(f"--diameters {too_fine[0]:g}: allowed are {powder.diameter:g} (the real one) or more")
     speed = Speed(arguments.speed or measure_speed(workflow.find_lmp(arguments.lmp)))
-    lines = [line(powder, loading, d, wanted, table, speed, not arguments.true_gravity) for d in sizes]
+    lines = [line(powder, loading, d, wanted, table, speed, not arguments.true_gravity,
+                  {} if arguments.calibrated is None else _errors_of_coefficients(arguments.calibrated))
+             for d in sizes]
     print(text(lines, speed))
     chosen = best(lines)
     if chosen is None:
@@ -92,6 +98,17 @@ def run(arguments: argparse.Namespace) -> int:
                                    encoding="utf-8")
         print(f"Include file: {arguments.write}")
     return 0
+
+
+def _errors_of_coefficients(path: Path) -> Dict[str, float]:
+    """By quantity, the largest of its targets'.
+
+    :raise ValueError: for a file without them
+    """
+    table = pd.read_csv(path)
+    if "error_of_coefficients" not in table:
+        raise ValueError(f"--calibrated {path}: it has no column error_of_coefficients")
+    return table.groupby("quantity")["error_of_coefficients"].max().dropna().to_dict()
 
 
 def measure_speed(lmp: Path) -> float:

@@ -90,7 +90,7 @@ def _curve_figure(kinds: Any, names: List[str], curves: pd.DataFrame, quantity: 
     """Stress over strain, or a quantity over stress: means over the seeds, with their errors as bands."""
     figure = go.Figure()
     for k, (key, some) in enumerate(kinds):
-        own = curves[curves["run"].isin(some.index)]
+        own = curves[curves["run"].isin(some.index) & (curves["branch"] == "load")]
         order = own.groupby("run").cumcount()
         mean, error = (own.groupby(order)[["stress", quantity]].agg(how) for how in ("mean", "sem"))
         colour = COLOURS[k % len(COLOURS)]

@@ -12,6 +12,12 @@ from . import measure
 from .study import NOT_VARIABLES
 
 _DEFAULT = re.compile(r"^variable\s+(\w+)\s+index\s+(.*?)\s*(?:#.*)?$", re.MULTILINE)
+_MULTIPLE = re.compile(r"^\$\(([\d.]+)\*v_(\w+)\)$")
+_STAGE = re.compile(r"^Stage (\w+)\s*$")
+_LOOP = re.compile(r"^Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms")
+_CPU = re.compile(r"^(\S+)% CPU use with")
+#: Stages that make a specimen rather than test it.
+MAKING = ("start", "place", "relax", "pack", "rain", "press")
 #: Of the stress at which a packing is made, from which on strain counts.
 PRELOAD = 1.25
 
@@ -30,6 +36,12 @@ def tidy(table: pd.DataFrame, out: Path, infiles: Path) -> Tuple[pd.DataFrame, p
         given = {**defaults_of(infiles / row["infile"]),
                  **{k: v for k, v in row.items() if k not in NOT_VARIABLES and not pd.isna(v)}}
         diameter, density, packed = (float(given[name]) for name in ("d", "density", "ppack"))
+        samples = measure.read_curve(out / run / "curve.csv")
+        load = measure.loading(samples, PRELOAD * packed, run)
+        # The platen lags: the last level is not always reached while loading.
+        top = min(float(given.get("level", given.get("pmax", "inf")).split()[-1]), load["stress"].max())
+        curves += [measure.curve_of(load, top).assign(run=run, branch="load"),
+                   measure.unloading_of(samples, load).assign(run=run, branch="unload")]
         measured = measure.measure_confined(out / run, diameter, density, PRELOAD * packed)
         crushed = table[table["needs"] == run] if "needs" in table else table.iloc[:0]
         for then, after in crushed.iterrows():
@@ -37,12 +49,10 @@ def tidy(table: pd.DataFrame, out: Path, infiles: Path) -> Tuple[pd.DataFrame, p
                 level = str(after["state"]).replace("level_", "")
                 measured.update({f"{name}_{level}": value
                                  for name, value in measure.measure_crushed(out / then).items()})
+                curves.append(measure.crushing_of(measure.read_curve(out / then / "curve.csv"))
+                              .assign(run=run, branch=f"crush_{level}"))
         rows.append({"run": run, "group": row["group"], **_numbers(given), **measured,
-                     "rained_porosity": _rained(out / run), "seconds": _seconds(out / run)})
-        load = measure.loading(measure.read_curve(out / run / "curve.csv"), PRELOAD * packed, run)
-        # The platen lags: the last level is not always reached while loading.
-        curves.append(measure.curve_of(load, min(float(given["level"].split()[-1]), load["stress"].max()))
-                      .assign(run=run))
+                     "rained_porosity": _rained(out / run), **costs(out / run)})
     if not rows:
         raise measure.BadRun(f"{out}: no run of the study is finished")
     return pd.DataFrame(rows).set_index("run"), pd.concat(curves, ignore_index=True)
@@ -53,9 +63,13 @@ def _is_done(out: Path, run: str) -> bool:
 
 
 def _numbers(given: Dict[str, str]) -> Dict[str, object]:
-    """Numbers where they are such; what depends on another variable is left out."""
+    """Numbers where they are such. Of defaults that depend on another variable those are known that are a
+    multiple of it, $(2*v_k1); others are left out."""
     made: Dict[str, object] = {}
     for name, value in given.items():
+        multiple = _MULTIPLE.match(value)
+        if multiple:
+            value = str(float(multiple.group(1)) * float(given[multiple.group(2)]))
         if name in ("files", "out", "parameters", "images", "colourstress") or "$" in value:
             continue
         try:
@@ -72,12 +86,27 @@ def _rained(folder: Path) -> float:
     return float(found.group(1)) if found else float("nan")
 
 
-def _seconds(folder: Path) -> float:
-    """Wall time of the run, s."""
-    cost = folder / "cost.tsv"
-    return float(pd.read_csv(cost, sep="\t")["s"].iloc[0]) if cost.is_file() else float("nan")
+def costs(folder: Path) -> Dict[str, float]:
+    """Of LAMMPS's loops, times the part of a core that they had: the whole run, and the test without the
+    making of the specimen; particles and steps of both."""
+    seconds: Dict[str, float] = {}
+    steps: Dict[str, int] = {}
+    stage, particles, loop = "start", 0, 0.0
+    with (folder / "log.lammps").open(encoding="utf-8", errors="replace") as log:
+        for line in log:
+            found = _STAGE.match(line) or _LOOP.match(line) or _CPU.match(line)
+            if found is None:
+                continue
+            if found.re is _STAGE:
+                stage = found.group(1)
+            elif found.re is _LOOP:
+                loop, particles = float(found.group(1)), int(found.group(3))
+                steps[stage] = steps.get(stage, 0) + int(found.group(2))
+            else:
+                seconds[stage] = seconds.get(stage, 0.0) + 0.01 * float(found.group(1)) * loop
 
+    def of_test(values: Dict[str, float]) -> float:
+        return sum(value for name, value in values.items() if name not in MAKING)
 
-def with_numbers(results: pd.DataFrame) -> pd.DataFrame:
-    """Adds what errors depend on: `ratio` d/dref, `width` side/d."""
-    return results.assign(ratio=results["d"] / results["dref"], width=results["side"] / results["d"])
+    return {"particles": particles, "seconds": sum(seconds.values()), "test_seconds": of_test(seconds),
+            "steps": sum(steps.values()), "test_steps": of_test(steps)}

@@ -11,11 +11,12 @@ run left, with its own variables, such as a specimen that is crushed after each 
       ratio: {d: [1e-3, 2e-3], scaled: ["yes", "no"], seed: [1, 2, 3],
               after: {infile: in.unconfined, state: [level_96e3]}}
 
-A value of several words, such as `level` above, is a list within the list.
+A value of several words, such as `level` above, is a list within the list; 1..5 is [1, 2, 3, 4, 5].
 """
 from __future__ import annotations
 
 import itertools
+import re
 from pathlib import Path
 from typing import Any, Dict, Iterable, List, Mapping, Tuple, Union
 
@@ -71,8 +72,7 @@ def _runs_of(group: str, entry: Mapping[str, Any], path: str) -> Iterable[Dict[s
 
 def _combinations(entry: Mapping[str, Any], place: str) -> Iterable[Tuple[str, Dict[str, str]]]:
     """Every combination of the entry's values, with a name made of those that vary."""
-    lists = {key: value if isinstance(value, list) else [value]
-             for key, value in entry.items() if key != "zip"}
+    lists = {key: _list(value) for key, value in entry.items() if key != "zip"}
     axes = [[{key: one} for one in values] for key, values in lists.items()]
     together = entry.get("zip", {})
     if len({len(values) for values in together.values()}) > 1:
@@ -84,6 +84,13 @@ def _combinations(entry: Mapping[str, Any], place: str) -> Iterable[Tuple[str, D
         values = {key: _words(value) for part in parts for key, value in part.items()}
         marks = [f"{key}={values[key].replace(' ', '+')}" for key in varied]
         yield ",".join(marks) or "run", values
+
+
+def _list(value: Any) -> List[Any]:
+    span = re.fullmatch(r"(\d+)\.\.(\d+)", value) if isinstance(value, str) else None
+    if span:
+        return list(range(int(span.group(1)), int(span.group(2)) + 1))
+    return value if isinstance(value, list) else [value]
 
 
 def _words(value: Any) -> str:

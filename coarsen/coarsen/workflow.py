@@ -6,7 +6,7 @@ import os
 import shutil
 import subprocess
 from pathlib import Path
-from typing import List, Optional, Sequence
+from typing import Dict, List, Sequence, Union
 
 SNAKEFILE = Path(__file__).resolve().parent / "Snakefile"
 
@@ -15,13 +15,13 @@ class NotInstalled(RuntimeError):
     """A program that is needed was not found; the message says where it was sought."""
 
 
-def find_lmp(given: Optional[str]) -> Path:
+def find_lmp(given: Union[None, str, Path]) -> Path:
     """LAMMPS with this package: the one named, or that of the build folder, or lmp on the path.
 
     :raise NotInstalled: with every place where it was sought
     """
     root = Path(__file__).resolve().parents[2]
-    places = [given] if given else [str(Path(os.environ.get("BUILD_DIR") or root / "build") / "lmp"), "lmp"]
+    places = [str(given)] if given else [str(Path(os.environ.get("BUILD_DIR") or root / "build") / "lmp"), "lmp"]
     for place in places:
         found = shutil.which(place)
         if found:
@@ -46,10 +46,11 @@ def run_study(study: Path, infiles: Path, out: Path, lmp: Path, cores: int, rank
                "--rerun-incomplete", "--quiet", "rules", *more, "--config",
                f"study={study.resolve()}", f"infiles={infiles.resolve()}", f"out={out.resolve()}",
                f"lmp={lmp}", f"ranks={ranks}"]
-    subprocess.run(command, check=True, env={**os.environ, **_mpi_settings()}, stdin=subprocess.DEVNULL)
+    subprocess.run(command, check=True, env={**os.environ, **mpi_settings()}, stdin=subprocess.DEVNULL)
 
 
-def _mpi_settings() -> dict:
+def mpi_settings() -> Dict[str, str]:
+    """The variables of scripts/mpi.env, which has the reasons."""
     path = Path(__file__).resolve().parents[2] / "scripts" / "mpi.env"
     lines: List[str] = path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
     return dict(line.split("=", 1) for line in lines if line and not line.startswith("#"))

@@ -16,6 +16,7 @@ import pandas as pd
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "coarsen"))
 
+import evidence_figures  # noqa: E402  (beside this file)
 from coarsen import evidence  # noqa: E402
 from coarsen.results import PRELOAD, tidy  # noqa: E402
 from coarsen.study import read_study  # noqa: E402
@@ -100,6 +101,9 @@ def main() -> None:
     runs.to_csv(HERE / "results" / "evidence_runs.csv", float_format="%.6g")
     curves.to_csv(HERE / "results" / "evidence_curves.csv.gz", index=False, float_format="%.6g")
     found = slopes(runs)
+    known = with_numbers(runs)
+    evidence_figures.limits(known, HERE / "results" / "evidence_limits.png")
+    evidence_figures.loose(known, curves, HERE / "results" / "evidence_loose.png")
     found.to_csv(evidence.TABLE, index=False, float_format="%.5g")
     print(found.to_string())
 

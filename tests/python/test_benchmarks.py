@@ -12,7 +12,8 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "examples" / "scale_collapse"), str(ROOT / "examples")]
+sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "examples" / "scale_collapse"), str(ROOT / "examples"),
+                str(ROOT / "coarsen")]
 
 from bench import (cases, cost, instructions, kernel, lammps, lammps_log,  # noqa: E402
                    many_particles, many_types, memory, output, report, scaling, statistics, styles,

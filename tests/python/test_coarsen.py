@@ -15,7 +15,7 @@ from scipy import stats
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "coarsen"))
 
-from coarsen import check, equivalence, evidence, measure, plan, report  # noqa: E402
+from coarsen import calibrate, check, equivalence, evidence, measure, plan, report  # noqa: E402
 from coarsen.__main__ import main  # noqa: E402
 from coarsen.dimensionless import Loading, Powder  # noqa: E402
 from coarsen.options import diameters, percentages  # noqa: E402
@@ -288,6 +288,10 @@ class Evidence(unittest.TestCase):
         self.assertAlmostEqual(found.low, math.expm1(-0.15 - stats.t.ppf(0.95, 1) * spread))
         self.assertEqual(found.outside, ())
 
+    def test_errors_of_coefficients_are_added(self):
+        found = evidence.predict(self.TABLE, "q", {}, of_coefficients=0.1)
+        self.assertAlmostEqual(found.high, math.expm1(0.1 * stats.norm.ppf(0.95)))
+
     def test_what_is_outside_the_evidence_is_named(self):
         self.assertIn("d/W, diameter over width of 0.2, evidence for q ends at 0.15",
                       evidence.predict(self.TABLE, "q", {"narrowness": (0.01, 0.2)}).outside)
@@ -346,13 +350,77 @@ class Plan(unittest.TestCase):
                 make()
 
 
+class Calibrate(unittest.TestCase):
+    start = {"k1": 5e3, "kadh": 5e3, "f0": -1e-4, "mu": 0.5, "mur": 1e-3}
+    TARGETS = pd.DataFrame({"quantity": ["strain", "strength"], "stress": [9e4, 9.6e4], "value": [0.02, 1.5e4],
+                            "error": [2e-4, 3e2]})
+
+    @staticmethod
+    def simulate(sets, seeds=3, scatter=0.0):
+        """Strain falls with k1, strength rises with kadh and falls with k1; packings scatter, the same ones for
+        every set."""
+        noise = scatter * np.random.default_rng(7).standard_normal((seeds, 2))
+        return [np.exp(noise) * [0.025 * (values["k1"] / 5e3)**-0.9,
+                                 1.2e4 * (values["kadh"] / 5e3)**0.7 * (values["k1"] / 5e3)**-0.2] for values in sets]
+
+    def test_finds_the_coefficients(self):
+        found = calibrate.fit(self.start, ["k1", "kadh"], self.TARGETS, self.simulate, 12)
+        k1 = (0.025 / 0.02)**(1 / 0.9)
+        kadh = (1.5e4 / 1.2e4 * k1**0.2)**(1 / 0.7)
+        self.assertAlmostEqual(found.values["k1"] / 5e3, k1, places=4)
+        self.assertAlmostEqual(found.values["kadh"] / 5e3, kadh, places=4)
+        self.assertAlmostEqual(found.values["mu"], 0.5)
+        # Errors of the targets, 1 and 2%, through the inverse of the powers; the packings do not scatter.
+        self.assertAlmostEqual(found.errors["k1"], 0.01 / 0.9, places=5)
+        self.assertAlmostEqual(found.errors["kadh"], math.hypot(0.02, 0.01 * 0.2 / 0.9) / 0.7, places=4)
+        self.assertAlmostEqual(found.found["error_of_coefficients"][0], 0.01, places=5)
+        self.assertAlmostEqual(found.found["error_of_coefficients"][1], 0.02, places=5)
+
+    def test_scatter_of_packings_is_in_the_errors(self):
+        found = calibrate.fit(self.start, ["k1"], self.TARGETS[:1].assign(error=np.nan),
+                              lambda sets: [one[:, :1] for one in self.simulate(sets, 6, 0.03)], 12)
+        noise = 0.03 * np.random.default_rng(7).standard_normal((6, 2))[:, 0]
+        self.assertAlmostEqual(found.errors["k1"], noise.std(ddof=1) / math.sqrt(6) / 0.9, places=4)
+
+    def test_a_single_packing_has_no_error(self):
+        found = calibrate.fit(self.start, ["k1"], self.TARGETS[:1],
+                              lambda sets: [one[:, :1] for one in self.simulate(sets, 1)], 12)
+        self.assertTrue(math.isnan(found.errors["k1"]))
+        self.assertIn("its error is not known", calibrate.include_file(found, ["k1"], ""))
+
+    def test_what_is_known_is_not_simulated_again(self):
+        seen = []
+
+        def simulate(sets):
+            seen.extend(tuple(values.items()) for values in sets)
+            return self.simulate(sets)
+        calibrate.fit(self.start, ["k1", "kadh"], self.TARGETS, simulate, 12)
+        self.assertEqual(len(seen), len(set(seen)))
+
+    def test_bad_targets_are_named(self):
+        for text, said in (("quantity\nstrain\n", "no column value"),
+                           ("quantity,value\ncolour,1\n", "target 1 is colour, allowed are strain"),
+                           ("quantity,value\nstrain,1\n", "strain, needs a stress above 0"),
+                           ("quantity,stress,value\nsteady_angle,5,1\n", "steady_angle, has no stress"),
+                           ("quantity,stress,value\nstrength,5,0\n", "value 0, allowed are numbers above 0")):
+            with self.subTest(said), tempfile.TemporaryDirectory() as folder:
+                path = Path(folder) / "targets.csv"
+                path.write_text(text)
+                with self.assertRaisesRegex(ValueError, said):
+                    calibrate.read_targets(path)
+        with self.assertRaisesRegex(ValueError, "free coefficient e, allowed are"):
+            calibrate.fit(self.start, ["e"], self.TARGETS, self.simulate)
+        with self.assertRaisesRegex(ValueError, "kadh starts at 0"):
+            calibrate.fit({**self.start, "kadh": 0.0}, ["kadh"], self.TARGETS, self.simulate)
+
+
 class Report(unittest.TestCase):
     def runs(self):
         rows = [{"run": f"g/d={d},seed={s}", "group": "g", "d": d, "scaled": "yes", "seed": float(s), "mu": 0.5,
                  "strain": 0.02 + 0.001 * s, "strength_96e3": 1e4 * d * (1 + 0.01 * s)}
                 for d in (1.0, 2.0) for s in (1, 2, 3)]
         curves = [pd.DataFrame({"stress": [1.0, 2.0], "strain": [0.0, 0.01 * s], "porosity": [0.4, 0.39],
-                                "coordination": [5.0, 6.0], "run": f"g/d={d},seed={s}"})
+                                "coordination": [5.0, 6.0], "run": f"g/d={d},seed={s}", "branch": "load"})
                   for d in (1.0, 2.0) for s in (1, 2, 3)]
         return pd.DataFrame(rows).set_index("run"), pd.concat(curves)
 

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""examples/scale_collapse from end to end with a LAMMPS that the environment names (EEPA_LMP), on
-specimens so coarse that they take seconds."""
+"""in.oedometer and what the specimens of in.confined may be, with a LAMMPS that the environment names
+(EEPA_LMP), so coarse that they take seconds."""
 from __future__ import annotations
 
-import contextlib
-import csv
-import io
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -14,10 +12,9 @@ import unittest
 from pathlib import Path
 
 STUDY = Path(__file__).resolve().parents[2] / "examples" / "scale_collapse"
-sys.path.insert(0, str(STUDY))
+sys.path.insert(0, str(STUDY.parents[1] / "coarsen"))
 
-import run_study  # noqa: E402
-from collapse import curves  # noqa: E402
+from coarsen import measure  # noqa: E402
 
 LMP = os.environ.get("EEPA_LMP")
 
@@ -29,41 +26,22 @@ class Study(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.out = Path(folder.name)
 
-    def study(self, *words):
-        said = io.StringIO()
-        with contextlib.redirect_stdout(said):
-            code = run_study.main([*words, "--lmp", LMP, "--out", str(self.out), "--jobs", "2"])
-        self.assertEqual(code, 0)
-        return said.getvalue()
-
-    def lammps(self, *variables):
-        words = [LMP, "-in", "in.oedometer", "-log", "none", "-var", "out", str(self.out)]
+    def lammps(self, *variables, infile="in.oedometer"):
+        words = [LMP, "-in", infile, "-log", "none", "-var", "out", str(self.out)]
         for name, value in zip(variables[::2], variables[1::2]):
             words += ["-var", name, value]
         return subprocess.run(words, cwd=STUDY, text=True, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
 
-    def test_study_and_its_resuming(self):
-        words = ("--diameters", "2.5e-3", "3e-3", "--seeds", "2", "1", "--law", "plateau",
-                 "--scaled", "--dref", "1e-3")
-        self.assertIn("3 runs with", self.study(*words))
-        with (self.out / "table.csv").open(encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual([row["diameter_mm"] for row in rows], ["2.5", "3"])
-        self.assertEqual([row["particles"] for row in rows], ["320", "185"])
-        self.assertGreater(float(rows[1]["speed_up"]), 1.0)
-        markers = [path.stat().st_mtime_ns for path in sorted(self.out.glob("runs/*/done.json"))]
-        self.assertEqual(len(markers), 3)
-        self.assertIn("[3 of 3 runs done] by an earlier call", self.study(*words))
-        self.assertEqual(markers, [path.stat().st_mtime_ns
-                                   for path in sorted(self.out.glob("runs/*/done.json"))])
-        one = curves.load_curve(next(self.out.glob("runs/d2.5mm*seed1/curve.csv")), 5.0e3)
-        self.assertGreater(one.loading.stress[-1], 9.5e4)
-        self.assertLess(one.unloading.stress[-1], 5.0e3)
-        # Platens are in balance in a quasi-static test.
-        table = curves.read_samples(next(self.out.glob("runs/d2.5mm*seed1/curve.csv")))
-        late = table[table["stress_top"] > 1.0e4]
-        self.assertLess(abs(late["stress_top"] / late["stress_bottom"] - 1.0).max(), 0.05)
+    def test_platens_are_in_balance(self):
+        done = self.lammps("d", "2.5e-3", "law", "plateau")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        samples = measure.read_curve(self.out / "curve.csv")
+        load = measure.loading(samples, 5.0e3)
+        self.assertGreater(load["stress"].iloc[-1], 9.5e4)
+        self.assertLess(measure.unloading_of(samples, load)["stress"].iloc[-1], 5.0e3)
+        late = samples[samples["stress_top"] > 1.0e4]
+        self.assertLess((late["stress_top"] / late["stress_bottom"] - 1.0).abs().max(), 0.05)
 
     def test_scaled_and_unscaled_start_from_the_same_packing(self):
         packed = set()
@@ -80,6 +58,54 @@ class Study(unittest.TestCase):
                 (("d", "3e-3", "fraction", "0.2"), "ERROR: packed by 30%")):
             with self.subTest(variables=variables):
                 done = self.lammps(*variables)
+                self.assertNotEqual(done.returncode, 0)
+                self.assertIn(text, done.stdout)
+
+    SMALL = ("d", "3e-3", "side", "15e-3", "nref", "4050")
+
+    def test_a_loose_start_is_loose_and_keeps_its_contacts(self):
+        done = self.lammps(*self.SMALL, "start", "loose", "k1", "5e2", "kadh", "5e2", "f0", "-2e-4", "mur", "0.05",
+                           "ppack", "500", "ramping", "log", "rate", "1", "level", "4e3", "fall", "0.2",
+                           infile="in.confined")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        rained = re.search(r"^Rained: bed (\S+), porosity of its middle (\S+), coordination (\S+),", done.stdout,
+                           re.MULTILINE)
+        self.assertGreater(float(rained.group(2)), 0.45)
+        self.assertLess(float(rained.group(2)), 0.65)
+        samples = measure.read_curve(self.out / "curve.csv")
+        # Contacts that began anew would have no plastic overlap, and a dense start ends below 0.4.
+        self.assertGreater(samples["plastic_overlap"].iloc[0], 0.0)
+        self.assertGreater(samples["porosity"].iloc[0], 0.45)
+        self.assertGreater(samples["stress"].max(), 3.6e3)
+        # A platen that came down with the speed of its approach would leave overlaps of several percent.
+        self.assertLess(samples["mean_overlap"].iloc[0], 0.005)
+
+    def test_gravity_of_a_loose_start_is_over_s_or_true(self):
+        for weight, gravity in (("scaled", 9.81 / 3.0), ("true", 9.81)):
+            done = self.lammps(*self.SMALL, "start", "loose", "weight", weight, "ppack", "500", "level", "6e2",
+                               "fall", "0.5", "rate", "5", infile="in.confined")
+            self.assertEqual(done.returncode, 0, done.stdout)
+            said = re.search(r"^Rain under gravity (\S+) at", done.stdout, re.MULTILINE)
+            self.assertAlmostEqual(float(said.group(1)), gravity, places=6)
+
+    def test_a_distribution_of_sizes_keeps_the_mean_volume(self):
+        done = self.lammps(*self.SMALL, "spread", "0.3", "level", "5e3", "rate", "5", infile="in.confined")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        said = re.search(r"^Sizes: from (\S+) to (\S+) d, mean volume (\S+) of", done.stdout, re.MULTILINE)
+        self.assertAlmostEqual(float(said.group(3)), 1.0, places=9)
+        # within two standard deviations, and nearly so far, of a distribution about d exp(-1.5 spread^2)
+        self.assertGreater(float(said.group(1)), 0.45)
+        self.assertLess(float(said.group(1)), 0.62)
+        self.assertGreater(float(said.group(2)), 1.4)
+        self.assertLess(float(said.group(2)), 1.85)
+
+    def test_bad_words_of_a_start_are_named(self):
+        for variables, text in ((("start", "rained"), "variable start is rained, allowed are dense and loose"),
+                                (("ramping", "exp"), "variable ramping is exp, allowed are linear and log"),
+                                (("start", "loose", "weight", "none"), "variable weight is none, allowed are scaled"),
+                                (("start", "loose", "spread", "0.3"), "variable spread is 0.3, allowed is 0")):
+            with self.subTest(text):
+                done = self.lammps(*variables, infile="in.confined")
                 self.assertNotEqual(done.returncode, 0)
                 self.assertIn(text, done.stdout)
 
