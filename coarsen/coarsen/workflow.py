@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
+import time
 from pathlib import Path
 from typing import Dict, List, Sequence, Union
 
@@ -32,7 +34,8 @@ def find_lmp(given: Union[None, str, Path]) -> Path:
 
 def run_study(study: Path, infiles: Path, out: Path, lmp: Path, cores: int, ranks: int = 1,
               more: Sequence[str] = ()) -> None:
-    """Runs what of the study is not done yet, so many cores at once.
+    """Runs what of the study is not done yet, so many cores at once, and shows how far it is. All that Snakemake
+    says is in snakemake.log in `out`.
 
     :param more: further arguments of Snakemake, such as --profile slurm
     :raise NotInstalled: without Snakemake
@@ -43,10 +46,41 @@ def run_study(study: Path, infiles: Path, out: Path, lmp: Path, cores: int, rank
         raise NotInstalled("no snakemake on the path; on Debian: apt-get install snakemake")
     out.mkdir(parents=True, exist_ok=True)
     command = [snakemake, "--snakefile", str(SNAKEFILE), "--directory", str(out), "--cores", str(cores),
-               "--rerun-incomplete", "--quiet", "rules", *more, "--config",
+               "--rerun-incomplete", *more, "--config",
                f"study={study.resolve()}", f"infiles={infiles.resolve()}", f"out={out.resolve()}",
                f"lmp={lmp}", f"ranks={ranks}"]
-    subprocess.run(command, check=True, env={**os.environ, **mpi_settings()}, stdin=subprocess.DEVNULL)
+    with (out / "snakemake.log").open("w", encoding="utf-8") as log, subprocess.Popen(
+            command, env={**os.environ, **mpi_settings()}, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, text=True) as running:
+        began = time.monotonic()
+        for line in running.stdout or ():
+            log.write(line)
+            shown = shown_of(line, time.monotonic() - began)
+            if shown:
+                print(shown, flush=True)
+    if running.returncode != 0:
+        print(f"All that Snakemake said: {out / 'snakemake.log'}")
+        raise subprocess.CalledProcessError(running.returncode, command)
+
+
+_PROGRESS = re.compile(r"^(\d+) of (\d+) steps \(\d+%\) done")
+#: What the Snakefile and LAMMPS say of a run that failed, and Snakemake of what it can not do at all.
+_ERROR = re.compile(r"^(Run .* failed, see|ERROR|Last (input|command)|\w*(Error|Exception)\b|Missing|Incomplete)")
+
+
+def shown_of(line: str, seconds: float) -> str:
+    """What a user sees of a line of Snakemake's, empty if nothing.
+
+    :param seconds: since the begin
+    """
+    found = _PROGRESS.match(line)
+    if found:
+        done, runs = int(found.group(1)), int(found.group(2)) - 1  # the last step only collects
+        if done > runs:
+            return ""
+        left = seconds * (runs - done) / done
+        return f"[{done} of {runs} runs done, about {f'{left:.0f} s' if left < 100 else f'{left / 60:.0f} min'} left]"
+    return line.rstrip() if _ERROR.match(line) else ""
 
 
 def mpi_settings() -> Dict[str, str]:

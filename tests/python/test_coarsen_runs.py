@@ -63,6 +63,7 @@ class Runs(unittest.TestCase):
         self.assertEqual(status, 0, text)
         self.assertRegex(text, r"stress +2 +[+-]0\.00% .* equivalent")
         self.assertIn("equivalent: ", text)
+        self.assertIn("[6 of 6 runs done, about 0 s left]", text)
         # A run that is there is not repeated, and another variable makes all of them new.
         done = self.folder / "coarsen_check/check/d=0.002,seed=3/done"
         before = done.stat().st_mtime_ns
@@ -87,6 +88,8 @@ class Runs(unittest.TestCase):
         self.assertRegex(text, r"seed=\d failed, see its log.lammps:\nERROR")
         self.assertIn("run nonsense", text)
         self.assertIn("coarsen check: a run failed, see above", text)
+        self.assertNotIn("jobid", text)  # which is in the log
+        self.assertIn("jobid", (self.folder / "coarsen_check/snakemake.log").read_text())
         self.assertNotIn("Traceback", text)
 
     def test_an_in_file_without_results_is_told_what_to_print(self):
