@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Dict, Iterable, List, Mapping, Sequence, Tuple
 
 import numpy as np
@@ -31,11 +32,13 @@ OUTSIDE = 0.1
 
 
 def slopes_of(runs: pd.DataFrame, study: str, quantities: Iterable[str], numbers: Sequence[str],
-              family: str = "") -> pd.DataFrame:
+              family: str = "", included: Mapping[str, float] = MappingProxyType({})) -> pd.DataFrame:
     """The slopes that one study gives, a row a quantity and number.
 
     :param runs: a row a run, or a mean of runs with its relative error in a column QUANTITY_error;
         columns of the quantities (above 0) and of the numbers. A number that does not vary gives no row.
+    :param included: other numbers that went with the first of `numbers` and are in its slope, with their largest
+        values
     :param family: of studies whose packings are the same (the study itself if none): they have one
         another's errors
     """
@@ -56,7 +59,9 @@ def slopes_of(runs: pd.DataFrame, study: str, quantities: Iterable[str], numbers
         means = pd.DataFrame({"rest": y - fit.predict(x), **known[varying]}).groupby(varying)["rest"].mean()
         rows += [{"family": family or study, "study": study, "quantity": quantity, "number": number, "slope": fit.params[number],
                   "error": fit.bse[number], "least": known[number].min(), "most": known[number].max(),
-                  "misfit": float(np.sqrt(np.mean(means**2)))} for number in varying]
+                  "misfit": float(np.sqrt(np.mean(means**2))),
+                  "included": ";".join(f"{name}={most:g}" for name, most in included.items())}
+                 for number in varying]
     return pd.DataFrame(rows)
 
 
@@ -91,8 +96,19 @@ def effect(table: pd.DataFrame, quantity: str, number: str) -> Effect:
     if len(once) == 1:
         return Effect(once["slope"].iloc[0], once["error"].iloc[0], math.sqrt(within), *known)
     pooled = combine_effects(once["slope"].to_numpy(), once["error"].to_numpy()**2, method_re="dl")
-    return Effect(float(pooled.mean_effect_re), float(pooled.sd_eff_w_re),
-                  math.sqrt(max(pooled.tau2, 0.0) + within), *known)
+    if pooled.tau2 <= 0.0:  # they scatter less than their errors say
+        return Effect(float(pooled.mean_effect_fe), float(pooled.sd_eff_w_fe), math.sqrt(within), *known)
+    return Effect(float(pooled.mean_effect_re), float(pooled.sd_eff_w_re), math.sqrt(pooled.tau2 + within), *known)
+
+
+def included(table: pd.DataFrame, quantity: str) -> Dict[str, float]:
+    """Numbers whose effect on a quantity is in its slopes over other numbers, with the largest values seen."""
+    found: Dict[str, float] = {}
+    for text in table.loc[table["quantity"] == quantity, "included"].dropna():
+        for part in filter(None, str(text).split(";")):
+            name, _, most = part.partition("=")
+            found[name] = max(found.get(name, 0.0), float(most))
+    return found
 
 
 def _root_mean_square(values: pd.Series) -> float:
@@ -121,7 +137,7 @@ def predict(table: pd.DataFrame, quantity: str, changes: Mapping[str, Tuple[floa
         try:
             found = effect(table, quantity, number)
         except KeyError as error:
-            if max(fine, coarse) <= HARMLESS.get(number, 0.0):
+            if max(fine, coarse) <= max(HARMLESS.get(number, 0.0), included(table, quantity).get(number, 0.0)):
                 continue
             outside.append(str(error.args[0]))
             continue

@@ -53,13 +53,14 @@ def limits(runs: pd.DataFrame, path: Path) -> None:
 
 def loose(runs: pd.DataFrame, curves: pd.DataFrame, path: Path) -> None:
     """Loose starts: porosity before loading over d by protocol, and the curves of each protocol."""
+    runs = runs.assign(group=runs["group"].replace("loose_fine", "loose"))
     protocols: Dict[str, Sequence[str]] = {"scaled, gravity over s": ["loose"],
                                            "scaled, same gravity": ["loose", "loose_true_weight"],
                                            "unscaled": ["loose", "loose_unscaled"]}
     figure, axes = plt.subplots(2, 3, figsize=(13.0, 8.0), constrained_layout=True)
     for quantity, axis, label in zip(("rained_porosity", "porosity_before", "strength"), axes[0],
                                      ("porosity of the bed", "porosity before loading",
-                                      "strength after the last level (Pa)")):
+                                      "stress at 5% of crushing (Pa)")):
         for colour, (name, (usual, *own)) in zip(COLOURS, protocols.items()):
             finest = runs["d"] <= 1.001e-3
             some = runs[runs["group"].isin(own or [usual]) | ((runs["group"] == usual) & finest)]

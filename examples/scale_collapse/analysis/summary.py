@@ -92,7 +92,7 @@ def _overview(table: pd.DataFrame) -> str:
         "particles": table["particles"].astype(int), "seeds": table["seeds"],
         "curve (% of peak)": _with_error(table, "curve", 2),
         "unloading": ["" if np.isnan(x) else f"{x:.1f}" for x in table["unloading"]], "porosity before": _with_error(table, "porosity_before", 4),
-        "Z": _with_error(table, "coordination", 2), "strain (%)": _with_error(table, "strain", 3, 100.0),
+        "Z": _with_error(table, "coordination", 2), "strain at 90% (%)": _with_error(table, "strain", 3, 100.0),
         "test (s)": table["test_seconds"].round(2), "speed-up": gain["test_seconds"].round(1),
         "of whole runs": gain["seconds"].round(1)})
     return shown.to_string(index=False)
