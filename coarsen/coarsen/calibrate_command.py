@@ -41,7 +41,6 @@ def add(commands: Any) -> None:
     parser.add_argument("--seeds", type=int, default=3, metavar="N", help="packings of each set; 2 or more for errors (3)")
     parser.add_argument("--first-seed", type=int, default=1001, metavar="S", help="(1001)")
     parser.add_argument("--side", type=float, default=30.0e-3, metavar="M", help="width of the specimens (0.03)")
-    parser.add_argument("--particles", type=int, default=32400, metavar="N", help="of dref in them (32400)")
     parser.add_argument("--preshear", type=float, default=5.0e3, metavar="PA", help="of the shear tester (5e3)")
     parser.add_argument("--steps", type=int, default=8, metavar="N", help="of the optimiser at most (8)")
     add_running(parser, "calibrate")
@@ -49,10 +48,17 @@ def add(commands: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    for name in ("seeds", "steps", "particles"):
+    for name in ("seeds", "steps"):
         if getattr(arguments, name) < 1:
             raise ValueError(f"--{name} is {getattr(arguments, name)}, allowed is 1 or more")
     targets = calibrate.read_targets(arguments.targets)
+    preload = PRELOAD * float(defaults_of(SPECIMENS / "in.confined")["ppack"])
+    low = targets[targets["quantity"].isin(("strain", "porosity_change")) & (targets["stress"] <= preload)]
+    if len(low):
+        raise ValueError(f"{arguments.targets}: {low['quantity'].iloc[0]} at {low['stress'].iloc[0]:g} Pa, allowed are "
+                         f"stresses above the preload of {preload:g} Pa")
+    if arguments.law != "linear" and targets["quantity"].isin(calibrate.SHEAR).any():
+        raise ValueError(f"--law is {arguments.law}: the powder of the shear tester has the law linear")
     arguments.out = arguments.out.resolve()
     start = {name: getattr(arguments, name) for name in calibrate.FREE}
 
@@ -110,9 +116,13 @@ class Simulation:
     def _specimens(self, sets: Sequence[Mapping[str, float]]) -> np.ndarray:
         a, targets = self._arguments, self._targets[~self._sheared]
         crushed = [f"{p:g}" for p in sorted(targets.loc[targets["quantity"] == "strength", "stress"].unique())]
-        levels = sorted({f"{targets['stress'].max():g}", *crushed}, key=float)
+        # A tenth more than what is wanted last, for the platen lags.
+        levels = sorted({f"{1.1 * targets['stress'].max():g}", *crushed}, key=float)
         groups = {_name(values): {
-            "infile": "in.confined", **self._common(values), "law": a.law, "side": repr(a.side), "nref": a.particles,
+            "infile": "in.confined", **self._common(values), "law": a.law, "side": repr(a.side),
+            # as many as the 32400 of 1 mm in 30 mm, packed as stiffly and as fast
+            "nref": round(32400 * (a.side / 30e-3)**3 * (1e-3 / a.dref)**3), "kpack": repr(5e6 * a.dref),
+            "packrate": repr(1e-3 / a.dref),
             "level": [levels] if len(levels) > 1 else levels[0],
             **({"after": {"infile": "in.unconfined", "state": [f"level_{p}" for p in crushed]}} if crushed else {})}
             for values in sets}
@@ -165,7 +175,11 @@ class Simulation:
                 flow = yield_locus.flow(*np.transpose(points), preshear)
                 known = {"friction_angle": flow.friction, "steady_angle": flow.steady, "flow_function": flow.ffc,
                          "shear_strength": flow.unconfined}
-                found.append([known[q] for q in self._targets.loc[self._sheared, "quantity"]])
+                wanted = list(self._targets.loc[self._sheared, "quantity"])
+                odd = [q for q in wanted if not 0.0 < known[q] < np.inf]
+                if odd:
+                    raise ValueError(f"{folder}: {odd[0]} is {known[odd[0]]:g}, so that it can not be fitted")
+                found.append([known[q] for q in wanted])
         return np.array(found).reshape(len(sets), a.seeds, -1)
 
 

@@ -7,15 +7,14 @@ prints a line for each quantity to be compared:
     print "Result strength $(v_strength)"
 
 A quantity is equivalent when the 90% interval of its difference lies within the tolerance
-(equivalence.py), and diameters are when all quantities are. With three diameters or more a trend over d
-is looked for; where there is one, coarse runs are compared with the straight line's value at the real
-diameter instead of with the finest that was run.
+(equivalence.py), and diameters are when all quantities are. Coarse runs are compared with the finest that was
+run; with a real diameter that is finer still, and three diameters or more, with what a straight line over d
+gives there, whether or not its slope is significant: what a slope of chance may be is in the interval. Where the
+means lie on no straight line nothing is extrapolated, and the verdict is undecided.
 """
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
-from pathlib import Path
+from dataclasses import dataclass, replace
 from typing import Dict, Iterable, List, Optional
 
 import numpy as np
@@ -24,84 +23,79 @@ from scipy import stats
 
 from .equivalence import DIFFERENT, EQUIVALENT, LEVEL, OPEN, compare, judge
 
-_RESULT = re.compile(r"^Result (\S+) (\S+)\s*$", re.MULTILINE)
-
 
 class NothingToCompare(ValueError):
     """The runs do not say what is to be compared; the message says what is missing where."""
 
 
-def read_results(folder: Path, needed: bool = True) -> Dict[str, float]:
-    """The quantities that a run's log has `Result` lines of.
-
-    :raise NothingToCompare: with one that is no number, or without any where they are needed
-    """
-    log = (folder / "log.lammps").read_text(encoding="utf-8", errors="replace")
-    found: Dict[str, float] = {}
-    for name, text in _RESULT.findall(log):
-        try:
-            found[name] = float(text)
-        except ValueError as error:
-            raise NothingToCompare(f"{folder}: result {name} is {text}, allowed is a number") from error
-    if needed and not found:
-        raise NothingToCompare(f"{folder}: log.lammps has no line `Result NAME NUMBER`: let the in-file "
-                               'print them, as in print "Result strength $(v_strength)"')
-    return found
-
-
 def verdicts(results: pd.DataFrame, tolerance: Dict[str, float], real: Optional[float] = None,
              paired: bool = True) -> pd.DataFrame:
-    """A row for each quantity and coarser diameter: its difference from the finest, or from what a trend
+    """A row for each quantity and coarser diameter: its difference from the finest, or from what a straight line
     gives at the real diameter, and the verdict.
 
     :param results: columns d, seed and the quantities, all above 0
     :param tolerance: largest relative difference, by quantity; other quantities are not judged
-    :param real: diameter that a trend is followed to (m), the finest that was run if none
+    :param real: diameter that coarse runs shall stand for, the finest that was run if none
     :param paired: whether runs of a seed have the same packing in some sense, so that differences are
         taken seed by seed
+    :raise NothingToCompare: where a quantity is missing, or nothing depends on the seed
     """
-    finest = results["d"].min()
+    missing = [quantity for quantity in tolerance if quantity not in results]
+    if missing:
+        raise NothingToCompare(f"no run has the result {missing[0]}; there are "
+                               f"{', '.join(c for c in results if c not in ('d', 'seed'))}")
+    wanted = list(tolerance)
+    if (results.groupby("d")[wanted].nunique() <= 1).all(axis=None):
+        raise NothingToCompare(f"{', '.join(wanted)}: the same at every seed, to the last digit: does the in-file use "
+                               "its variable seed?")
     rows: List[Dict[str, object]] = []
     for quantity, allowed in tolerance.items():
-        if quantity not in results:
-            raise NothingToCompare(f"no run has the result {quantity}; there are "
-                                   f"{', '.join(c for c in results if c not in ('d', 'seed'))}")
         table = results.pivot(index="seed", columns="d", values=quantity)
-        trend = trend_of(table)
+        finest = table.columns.min()
+        line = line_through(table) if real is not None and not np.isclose(real, finest) else None
         for diameter in [d for d in table if d > finest]:
-            both = table[[diameter, finest]].dropna() if paired else table[[diameter, finest]]
-            if trend is None:
-                against = finest
-                verdict = compare(both[diameter].dropna(), both[finest].dropna(), allowed, paired)
+            if line is not None and line.is_straight:
+                step = diameter - real
+                verdict = judge(line.slope * step, line.error * abs(step), line.freedom, allowed, len(table))
             else:
-                against = finest if real is None else real
-                verdict = judge(trend.slope * (diameter - against), trend.error * (diameter - against),
-                                trend.freedom, allowed, len(both.dropna()))
-            rows.append({"quantity": quantity, "d": diameter, "against": against,
-                         "trend": trend is not None, **vars(verdict)})
+                both = table[[diameter, finest]].dropna() if paired else table[[diameter, finest]]
+                verdict = compare(both[diameter].dropna(), both[finest].dropna(), allowed, paired)
+                if real is not None and not np.isclose(real, finest) and verdict.verdict == EQUIVALENT:
+                    verdict = replace(verdict, verdict=OPEN)  # it says nothing on the real diameter
+            extrapolated = line is not None and line.is_straight
+            rows.append({"quantity": quantity, "d": diameter, "against": real if extrapolated else finest,
+                         "trend": bool(extrapolated and line.probability < LEVEL), **vars(verdict)})
     return pd.DataFrame(rows)
 
 
 @dataclass(frozen=True)
-class Trend:
-    """log of a quantity over diameter, a straight line: its slope (1/m), the slope's standard error and
-    degrees of freedom."""
+class Line:
+    """log of a quantity over diameter: slope (1/m), its standard error and degrees of freedom, the probability
+    that a slope so large is chance, and whether the means lie on the line within the scatter of the seeds."""
 
     slope: float
     error: float
     freedom: int
+    probability: float
+    is_straight: bool
 
 
-def trend_of(table: pd.DataFrame) -> Optional[Trend]:
-    """Of a quantity over three diameters or more; none where a straight line's slope could be chance.
+def line_through(table: pd.DataFrame) -> Optional[Line]:
+    """None with fewer than three diameters.
 
     :param table: a row a seed, a column a diameter
     """
     if table.shape[1] < 3:
         return None
     points = np.log(table).stack()
-    line = stats.linregress(points.index.get_level_values("d").astype(float), points)
-    return Trend(line.slope, line.stderr, len(points) - 2) if line.pvalue < LEVEL else None
+    x = points.index.get_level_values("d").astype(float)
+    fit = stats.linregress(x, points)
+    rest = points - fit.intercept - fit.slope * x
+    groups = rest.groupby(level="d")
+    between = (groups.size() * groups.mean()**2).sum() / (table.shape[1] - 2)
+    within = ((rest - groups.transform("mean"))**2).sum() / max(1, len(rest) - table.shape[1])
+    straight = stats.f.sf(between / within, table.shape[1] - 2, len(rest) - table.shape[1]) >= LEVEL
+    return Line(fit.slope, fit.stderr, len(points) - 2, fit.pvalue, bool(straight))
 
 
 def overall(verdicts_: Iterable[str]) -> str:
@@ -126,12 +120,11 @@ def resample(results: pd.DataFrame, quantity: str, coarse: float, fine: float, s
 
 def table_text(found: pd.DataFrame) -> str:
     """For people, a line a verdict."""
-    lines = [f"{'quantity':<24}{'d (mm)':>8} {'difference':>11}  {'90% interval':<20}{'allowed':>8}  verdict"]
+    lines = [f"{'quantity':<24}{'d':>10} {'against':>10} {'difference':>11}  {'90% interval':<20}{'allowed':>8}  verdict"]
     for row in found.itertuples():
-        against = (f", against {1e3 * row.against:g} mm by the trend over diameters" if row.trend else "")
         more = (f", {row.needed} seeds would decide" if 0 < row.needed < 1000 else
                 ", it lies at the limit itself" if row.needed else "")
-        lines.append(f"{row.quantity:<24}{1e3 * row.d:>8.4g} {100 * row.difference:>+10.2f}%  "
+        lines.append(f"{row.quantity:<24}{row.d:>10.4g} {row.against:>10.4g} {100 * row.difference:>+10.2f}%  "
                      f"{f'[{100 * row.low:+.2f}, {100 * row.high:+.2f}]%':<20}"
-                     f"{100 * row.tolerance:>7g}%  {row.verdict}{more}{against}")
+                     f"{100 * row.tolerance:>7g}%  {row.verdict}{more}{', with a trend over d' if row.trend else ''}")
     return "\n".join(lines)

@@ -6,7 +6,6 @@ import argparse
 from pathlib import Path
 from typing import Any, Dict, List
 
-import pandas as pd
 import yaml
 
 from . import check, workflow
@@ -38,9 +37,6 @@ def add(commands: Any) -> None:
     parser.add_argument("--then", type=Path, default=None, metavar="INFILE",
                         help="in-file that goes on from the folder of each run, named by its variable state")
     parser.add_argument("--state", default=None, help="value of state within that folder")
-    parser.add_argument("--measure", choices=("results", "specimen"), default="results",
-                        help="results: Result lines; specimen: what coarsen measures in runs of "
-                             "in.confined and in.unconfined, such as strain and strength_96e3")
     parser.add_argument("--unpaired", action="store_true",
                         help="a seed means nothing from one diameter to the other")
     add_running(parser, "check")
@@ -66,8 +62,11 @@ def run(arguments: argparse.Namespace) -> int:
     infiles = arguments.infile.resolve().parent
     workflow.run_study(study, infiles, out, workflow.find_lmp(arguments.lmp), arguments.cores, arguments.ranks,
                        arguments.snakemake)
-    found = check.verdicts(_read(arguments, study, infiles, out), wanted, arguments.real,
-                           not arguments.unpaired)
+    runs, _ = tidy(read_study(study), out, infiles)
+    if not set(wanted) & set(runs):
+        raise check.NothingToCompare(f"{out}: no log.lammps has lines `Result NAME NUMBER` of {', '.join(wanted)}: let "
+                                     'the in-file print them, as in print "Result strength $(v_strength)"')
+    found = check.verdicts(runs.reset_index(drop=True), wanted, arguments.real, not arguments.unpaired)
     found.to_csv(out / "check.csv", index=False)
     print(check.table_text(found))
     said = check.overall(found["verdict"])
@@ -89,21 +88,6 @@ def _study_of(arguments: argparse.Namespace, sizes: List[float]) -> Dict[str, An
             raise ValueError(f"--then {arguments.then} is not in the folder of {arguments.infile}")
         entry["after"] = {"infile": arguments.then.name, "state": arguments.state}
     return {"groups": {"check": entry}}
-
-
-def _read(arguments: argparse.Namespace, study: Path, infiles: Path, out: Path) -> pd.DataFrame:
-    table = read_study(study)
-    if arguments.measure == "specimen":
-        measured, _ = tidy(table, out, infiles)
-        return measured.reset_index(drop=True)
-    first = table[table["needs"].isna()] if "needs" in table else table
-    rows: List[Dict[str, float]] = []
-    for name, row in first.iterrows():
-        then = table.index[table["needs"] == name] if "needs" in table else []
-        rows.append({"d": float(row["d"]), "seed": int(row["seed"]), **{
-            quantity: value for folder in [name, *then]
-            for quantity, value in check.read_results(out / folder, folder == name and not len(then)).items()}})
-    return pd.DataFrame(rows)
 
 
 def _write_if_new(path: Path, text: str) -> None:

@@ -10,12 +10,12 @@ What remains of the diameter in a given box, at a given rate and gravity, is in 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 #: Part of 0.2 sqrt(m/k), the limit of compute gran/eepa/dt, that the in-files here take.
 STEP = 0.95 * 0.2
 #: Overlap over p d/k1, mean over the contacts of a packing under stress p.
-#: Fitted to evidence.csv: `coarsen evidence` prints it.
+#: examples/scale_collapse/evidence.py prints it from its runs.
 OVERLAP_OF_STRESS = 1.0
 
 
@@ -52,6 +52,12 @@ class Powder:
             raise ValueError(f"k2 is {self.k2:g}, allowed is k1 = {self.k1:g} or more")
         if self.smallest > 1.0:
             raise ValueError(f"smallest is {self.smallest:g}, allowed is 1 or less")
+
+    def softened(self, factor: float) -> "Powder":
+        """With stiffnesses divided by a factor, which lengthens the time step and deepens overlaps."""
+        if not factor >= 1.0:
+            raise ValueError(f"stiffnesses are divided by {factor:g}, allowed is 1 or more")
+        return replace(self, k1=self.k1 / factor, k2=self.k2 / factor, kadh=self.kadh / factor)
 
     def scale(self, diameter: float) -> float:
         """s, what stiffnesses are multiplied by at that diameter."""

@@ -67,8 +67,8 @@ def slopes_of(runs: pd.DataFrame, study: str, quantities: Iterable[str], numbers
 
 @dataclass(frozen=True)
 class Effect:
-    """Of one number on one quantity: mean slope, its error, the scatter of slopes between studies, the
-    largest value of the number that any of them had, and how far means lie from straight lines."""
+    """Of one number on one quantity: mean slope, its error, the scatter of slopes between studies, how many
+    studies of packings of their own there are, the largest value of the number that any of them had, and how far means lie from straight lines."""
 
     slope: float
     error: float
@@ -92,7 +92,7 @@ def effect(table: pd.DataFrame, quantity: str, number: str) -> Effect:
     once = rows.groupby("family").agg(slope=("slope", "mean"), error=("error", _root_mean_square),
                                       within=("slope", lambda x: x.var(ddof=1) if len(x) > 1 else np.nan))
     within = float(np.nan_to_num(once["within"].mean()))
-    known = (len(rows), float(rows["most"].max()), _root_mean_square(rows["misfit"]))
+    known = (len(once), float(rows["most"].max()), _root_mean_square(rows["misfit"]))
     if len(once) == 1:
         return Effect(once["slope"].iloc[0], once["error"].iloc[0], math.sqrt(within), *known)
     pooled = combine_effects(once["slope"].to_numpy(), once["error"].to_numpy()**2, method_re="dl")

@@ -4,10 +4,19 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 from pathlib import Path
-from typing import Dict, List, Sequence
+from typing import Any, Dict, List, Sequence
 
 from .workflow import cores
+
+
+class Parser(argparse.ArgumentParser):
+    """Takes -1e-7 for a number, which argparse of its own takes for an option."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._negative_number_matcher = re.compile(r"^-(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$")
 
 
 def add_running(parser: argparse.ArgumentParser, name: str) -> None:

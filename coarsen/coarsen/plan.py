@@ -2,8 +2,8 @@
 """Which diameters may be simulated: what each costs, which numbers it has, how wrong it will be."""
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Dict, List, Mapping, Optional, Sequence
 
 import numpy as np
@@ -52,23 +52,36 @@ def numbers_of(powder: Powder, loading: Loading, diameter: float, scaled_gravity
 
 
 def line(powder: Powder, loading: Loading, diameter: float, wanted: Dict[str, float], table: pd.DataFrame,
-         speed: Speed, scaled_gravity: bool, calibrated: Mapping[str, float] = MappingProxyType({})) -> Line:
+         speed: Speed, scaled_gravity: bool, calibrated: Optional[Mapping[str, float]] = None,
+         simulated: Optional[Powder] = None) -> Line:
     """:param wanted: error allowed, by quantity
-    :param calibrated: relative error that the coefficients leave in quantities, by quantity
+    :param calibrated: relative error that the coefficients leave in quantities, by quantity; none if they are
+        taken for exact
+    :param simulated: the powder with other stiffnesses, in place of its own
     """
-    real, coarse = (numbers_of(powder, loading, d, scaled_gravity) for d in (powder.diameter, diameter))
+    simulated = simulated or powder
+    real = numbers_of(powder, loading, powder.diameter, scaled_gravity)
+    coarse = numbers_of(simulated, loading, diameter, scaled_gravity)
     predictions = {quantity: predict(table, quantity, {n: (real[n], coarse[n]) for n in NUMBERS},
-                                     calibrated.get(quantity, 0.0))
+                                     _known(calibrated, quantity))
                    for quantity in wanted}
     objections = [reason for p in predictions.values() for reason in p.outside]
     objections += [f"{quantity} is off by {100 * p.low:+.1f} to {100 * p.high:+.1f}%, allowed are "
                    f"{100 * wanted[quantity]:g}%" for quantity, p in predictions.items()
-                   if max(-p.low, p.high) > wanted[quantity]]
-    count, step = loading.particles(diameter), powder.time_step(diameter)
+                   if not max(-math.log1p(p.low), math.log1p(p.high)) <= math.log1p(wanted[quantity])]
+    if calibrated is not None:
+        objections += [f"what the coefficients leave open in {quantity} is not known" for quantity in wanted
+                       if not math.isfinite(calibrated.get(quantity, math.nan))]
+    count, step = loading.particles(diameter), simulated.time_step(diameter)
     steps = loading.steps(step)
     return Line(diameter, count, step, steps, count * float(steps) / speed.particle_steps,
                 speed.program_bytes + count * speed.particle_bytes, coarse, predictions,
                 list(dict.fromkeys(objections)))
+
+
+def _known(calibrated: Optional[Mapping[str, float]], quantity: str) -> float:
+    value = (calibrated or {}).get(quantity, 0.0)
+    return value if math.isfinite(value) else 0.0  # what is not known is an objection of its own
 
 
 def series(powder: Powder, loading: Loading) -> List[float]:
@@ -76,7 +89,7 @@ def series(powder: Powder, loading: Loading) -> List[float]:
     finest = max(powder.diameter, powder.diameter
                  * (loading.particles(powder.diameter) / MOST_PARTICLES)**(1.0 / 3.0))
     coarsest = max(loading.width / 6.0, finest)
-    return [float(f"{d:.2g}") for d in np.geomspace(finest, coarsest, SERIES)]
+    return sorted({max(float(f"{d:.2g}"), powder.diameter) for d in np.geomspace(finest, coarsest, SERIES)})
 
 
 def best(lines: Sequence[Line]) -> Optional[Line]:

@@ -15,6 +15,7 @@ from . import evidence, workflow
 from .dimensionless import Loading, Powder
 from .options import percentages
 from .plan import Line, Speed, best, line, series
+from .results import PRELOAD
 
 INFILES = Path(__file__).resolve().parents[2] / "examples" / "scale_collapse"
 
@@ -51,6 +52,8 @@ def add(commands: Any) -> None:
     test.add_argument("--gravity", type=float, default=0.0, metavar="M/S2",
                       help="where weight matters, as for a bed that grains make themselves (0)")
     test.add_argument("--true-gravity", action="store_true", help="simulated unchanged, instead of over s")
+    parser.add_argument("--soften", type=float, default=1.0, metavar="FACTOR",
+                        help="simulate with stiffnesses divided by this: longer time steps, deeper overlaps (1)")
     parser.add_argument("--want", nargs="+", required=True, metavar="NAME=PERCENT",
                         help="quantities and the error allowed, such as strain=5 strength=10; of "
                              + ", ".join(sorted(evidence.read()["quantity"].unique())))
@@ -74,6 +77,10 @@ def run(arguments: argparse.Namespace) -> int:
                       arguments.solid_fraction, *arguments.stress, arguments.rate, arguments.strain,
                       arguments.gravity)
     wanted = percentages(arguments.want)
+    simulated = powder.softened(arguments.soften)
+    if arguments.write and loading.length != loading.width:
+        raise ValueError(f"--length is {loading.length:g}: the include file is for specimens as long as wide, "
+                         f"{loading.width:g}")
     table = evidence.read()
     unknown = sorted(set(wanted) - set(table["quantity"]))
     if unknown:
@@ -85,8 +92,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise ValueError(f"--diameters {too_fine[0]:g}: allowed are {powder.diameter:g} (the real one) or more")
     speed = Speed(arguments.speed or measure_speed(workflow.find_lmp(arguments.lmp)))
     lines = [line(powder, loading, d, wanted, table, speed, not arguments.true_gravity,
-                  {} if arguments.calibrated is None else _errors_of_coefficients(arguments.calibrated))
-             for d in sizes]
+                  None if arguments.calibrated is None else _errors_of_coefficients(arguments.calibrated),
+                  simulated) for d in sizes]
     print(text(lines, speed))
     chosen = best(lines)
     if chosen is None:
@@ -94,7 +101,7 @@ def run(arguments: argparse.Namespace) -> int:
         return 3
     print(f"\nCheapest that may be used: {1e3 * chosen.diameter:.4g} mm")
     if arguments.write:
-        arguments.write.write_text(include(powder, loading, chosen, not arguments.true_gravity),
+        arguments.write.write_text(include(simulated, loading, chosen, not arguments.true_gravity),
                                    encoding="utf-8")
         print(f"Include file: {arguments.write}")
     return 0
@@ -108,7 +115,7 @@ def _errors_of_coefficients(path: Path) -> Dict[str, float]:
     table = pd.read_csv(path)
     if "error_of_coefficients" not in table:
         raise ValueError(f"--calibrated {path}: it has no column error_of_coefficients")
-    return table.groupby("quantity")["error_of_coefficients"].max().dropna().to_dict()
+    return table.groupby("quantity")["error_of_coefficients"].apply(lambda x: x.max(skipna=False)).to_dict()
 
 
 def measure_speed(lmp: Path) -> float:
@@ -136,7 +143,7 @@ def text(lines: Sequence[Line], speed: Speed) -> str:
         rows.append(f"{1e3 * one.diameter:>8.4g} {one.particles:>10} {one.time_step:>9.2e} {one.steps:>9} "
                     f"{one.core_seconds / 3600:>8.2g} {1e-9 * one.memory:>6.2g} "
                     f"{1 / one.numbers['narrowness']:>6.3g} {one.numbers['inertia']:>8.1e} "
-                    f"{one.numbers['overlap']:>6.3f} {1 / weight if weight else float('inf'):>7.3g}"
+                    f"{one.numbers['overlap']:>6.3f} {f'{1 / weight:.3g}' if weight else '-':>7}"
                     + "".join(f"  {_interval(p):>20}" for p in one.predictions.values())
                     + f"  {'no' if one.objections else 'yes'}")
     reasons = [(one, reason) for one in lines for reason in one.objections]
@@ -157,10 +164,13 @@ def include(powder: Powder, loading: Loading, chosen: Line, scaled_gravity: bool
         ("d", f"{chosen.diameter:g}"), ("dref", f"{powder.reference:g}"), ("k1", f"{powder.k1:g}"),
         ("k2", f"{powder.k2:g}"), ("kadh", f"{powder.kadh:g}"), ("f0", f"{powder.f0:g}"),
         ("density", f"{powder.density:g}"), ("side", f"{loading.width:g}"), ("rate", f"{loading.rate:g}"),
+        ("level", f"{loading.high:g}"), ("ppack", f"{loading.low / PRELOAD:g}"),
+        # What in.confined packs with belongs to dref: as stiff and as fast as its own particles of 1 mm.
+        ("kpack", f"{5.0e6 * powder.reference:g}"), ("packrate", f"{1.0e-3 / powder.reference:g}"),
         ("nref", str(round(loading.particles(chosen.diameter) * (chosen.diameter / powder.reference)**3))))]
     if loading.gravity:
         # in.start_loose has gravity over s at every diameter, and takes that of dref.
         at_reference = loading.gravity * (powder.diameter / powder.reference if scaled_gravity else 1.0)
-        lines += [f"variable gravity   index {at_reference:g}",
+        lines += ["variable start     index loose", f"variable gravity   index {at_reference:g}",
                   f"variable weight    index {'scaled' if scaled_gravity else 'true'}"]
     return "\n".join(lines) + "\n"

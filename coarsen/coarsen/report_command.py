@@ -8,7 +8,6 @@ from typing import Any
 
 import pandas as pd
 
-from . import report
 from .results import tidy
 from .study import read_study
 
@@ -27,11 +26,15 @@ def add(commands: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from . import report  # which needs more libraries than the other commands
+
     study = arguments.study or arguments.out / "study.yaml"
     for path in (arguments.out, study):
         if not path.exists():
             raise FileNotFoundError(f"there is no {path}")
     runs, curves = tidy(read_study(study), arguments.out, (arguments.infiles or study.parent).resolve())
+    if curves.empty:
+        raise ValueError(f"{arguments.out}: no run is a specimen of in.confined or in.oedometer, and only those have figures")
     checked = arguments.out / "check.csv"
     path = arguments.to or arguments.out / "report.html"
     report.write(path, arguments.title or f"{study.stem}: {len(runs)} specimens", runs, curves, arguments.out,

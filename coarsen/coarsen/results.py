@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Dict, Tuple
+from typing import Dict, List, Optional, Tuple
 
 import pandas as pd
 
@@ -12,6 +12,7 @@ from . import measure
 from .study import NOT_VARIABLES
 
 _DEFAULT = re.compile(r"^variable\s+(\w+)\s+index\s+(.*?)\s*(?:#.*)?$", re.MULTILINE)
+_RESULT = re.compile(r"^Result (\S+) (\S+)\s*$", re.MULTILINE)
 _MULTIPLE = re.compile(r"^\$\(([\d.]+)\*v_(\w+)\)$")
 _STAGE = re.compile(r"^Stage (\w+)\s*$")
 _LOOP = re.compile(r"^Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms")
@@ -27,35 +28,81 @@ def defaults_of(infile: Path) -> Dict[str, str]:
     return dict(_DEFAULT.findall(infile.read_text(encoding="utf-8")))
 
 
-def tidy(table: pd.DataFrame, out: Path, infiles: Path) -> Tuple[pd.DataFrame, pd.DataFrame]:
-    """Every finished specimen of a study: its variables, defaults included, and what was measured, with
-    `strength_LEVEL` for each level that it was crushed after; and the curves of all, in one table."""
-    specimens = table[table["needs"].isna()] if "needs" in table else table
+def read_results(folder: Path) -> Dict[str, float]:
+    """The quantities that a run's log has lines `Result NAME NUMBER` of.
+
+    :raise measure.BadRun: with one that is no number
+    """
+    log = (folder / "log.lammps").read_text(encoding="utf-8", errors="replace")
+    found: Dict[str, float] = {}
+    for name, text in _RESULT.findall(log):
+        try:
+            found[name] = float(text)
+        except ValueError as error:
+            raise measure.BadRun(f"{folder}: result {name} is {text}, allowed is a number") from error
+    return found
+
+
+def tidy(table: pd.DataFrame, out: Path, infiles: Optional[Path] = None) -> Tuple[pd.DataFrame, pd.DataFrame]:
+    """Every finished run of a study, but those that go on from others, whose results join its row: its variables,
+    defaults included, and what was measured; and the curves of all specimens, in one table.
+
+    Specimens (of in.confined and in.oedometer) are measured, with `strength_LEVEL` and more for each level that they
+    were crushed after; of other runs the Result lines are taken.
+
+    :param infiles: folder of in-files, for runs that have none of their own
+    """
+    first = table[table["needs"].isna()] if "needs" in table else table
     rows, curves = [], []
-    for run, row in specimens[[_is_done(out, name) for name in specimens.index]].iterrows():
-        given = {**defaults_of(infiles / row["infile"]),
-                 **{k: v for k, v in row.items() if k not in NOT_VARIABLES and not pd.isna(v)}}
-        diameter, density, packed = (float(given[name]) for name in ("d", "density", "ppack"))
-        samples = measure.read_curve(out / run / "curve.csv")
-        load = measure.loading(samples, PRELOAD * packed, run)
-        # The platen lags: the last level is not always reached while loading.
-        top = min(float(given.get("level", given.get("pmax", "inf")).split()[-1]), load["stress"].max())
-        curves += [measure.curve_of(load, top).assign(run=run, branch="load"),
-                   measure.unloading_of(samples, load).assign(run=run, branch="unload")]
-        measured = measure.measure_confined(out / run, diameter, density, PRELOAD * packed)
-        crushed = table[table["needs"] == run] if "needs" in table else table.iloc[:0]
-        for then, after in crushed.iterrows():
-            if _is_done(out, then):
-                level = str(after["state"]).replace("level_", "")
-                measured.update({f"{name}_{level}": value
-                                 for name, value in measure.measure_crushed(out / then).items()})
-                curves.append(measure.crushing_of(measure.read_curve(out / then / "curve.csv"))
-                              .assign(run=run, branch=f"crush_{level}"))
-        rows.append({"run": run, "group": row["group"], **_numbers(given), **measured,
-                     "rained_porosity": _rained(out / run), **costs(out / run)})
+    for run, row in first[[_is_done(out, name) for name in first.index]].iterrows():
+        given = {k: v for k, v in row.items() if k not in NOT_VARIABLES and not pd.isna(v)}
+        infile = (out / run / "infiles" if (out / run / "infiles").is_dir() else infiles or out) / row["infile"]
+        given = {**(defaults_of(infile) if infile.is_file() else {}), **_of_parameters(given, out / run), **given}
+        after = table[table["needs"] == run] if "needs" in table else table.iloc[:0]
+        after = after[[_is_done(out, name) for name in after.index]]
+        if _is_specimen(out / run):
+            measured, own = _specimen(out, str(run), given, after)
+            curves += own
+        else:
+            measured = {name: value for folder in [run, *after.index]
+                        for name, value in read_results(out / folder).items()}
+        rows.append({"run": run, "group": row["group"], **_numbers(given), **measured, **costs(out / run)})
     if not rows:
         raise measure.BadRun(f"{out}: no run of the study is finished")
-    return pd.DataFrame(rows).set_index("run"), pd.concat(curves, ignore_index=True)
+    return (pd.DataFrame(rows).set_index("run"), pd.concat(curves, ignore_index=True) if curves else pd.DataFrame())
+
+
+def _is_specimen(folder: Path) -> bool:
+    path = folder / "curve.csv"
+    if not path.is_file():
+        return False
+    with path.open(encoding="utf-8") as file:
+        return "bulk_strain" in file.readline()
+
+
+def _specimen(out: Path, run: str, given: Dict[str, str],
+              after: pd.DataFrame) -> Tuple[Dict[str, float], List[pd.DataFrame]]:
+    """What was measured on one specimen, and its curves."""
+    diameter, density, packed = (float(given[name]) for name in ("d", "density", "ppack"))
+    samples = measure.read_curve(out / run / "curve.csv")
+    load = measure.loading(samples, PRELOAD * packed, run)
+    # The platen lags: the last level is not always reached while loading.
+    top = min(float(given.get("level", given.get("pmax", "inf")).split()[-1]), load["stress"].max())
+    curves = [measure.curve_of(load, top).assign(run=run, branch="load"),
+              measure.unloading_of(samples, load).assign(run=run, branch="unload")]
+    measured = measure.measure_confined(out / run, diameter, density, PRELOAD * packed)
+    for then, row in after.iterrows():
+        level = str(row["state"]).replace("level_", "")
+        measured.update({f"{name}_{level}": value for name, value in measure.measure_crushed(out / then).items()})
+        curves.append(measure.crushing_of(measure.read_curve(out / then / "curve.csv"))
+                      .assign(run=run, branch=f"crush_{level}"))
+    return {**measured, "rained_porosity": _rained(out / run)}, curves
+
+
+def _of_parameters(given: Dict[str, str], folder: Path) -> Dict[str, str]:
+    """Variables of the file that in.confined's variable `parameters` names, which go before its own defaults."""
+    path = folder / given.get("parameters", "none")
+    return defaults_of(path) if path.is_file() else {}
 
 
 def _is_done(out: Path, run: str) -> bool:

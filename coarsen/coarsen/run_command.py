@@ -37,8 +37,11 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     workflow.run_study(arguments.study, infiles, out, workflow.find_lmp(arguments.lmp), arguments.cores,
                        arguments.ranks, arguments.snakemake)
+    (out / "study.yaml").write_text(arguments.study.read_text(encoding="utf-8"), encoding="utf-8")  # for the report
     runs, curves = tidy(table, out, infiles)
     runs.to_csv(out / "runs.csv", float_format="%.6g")
-    curves.to_csv(out / "curves.csv.gz", index=False, float_format="%.6g")
-    print(f"Tables: {out / 'runs.csv'}, a row a specimen, and {out / 'curves.csv.gz'}")
+    print(f"Table: {out / 'runs.csv'}, a row a run")
+    if not curves.empty:
+        curves.to_csv(out / "curves.csv.gz", index=False, float_format="%.6g")
+        print(f"Curves: {out / 'curves.csv.gz'}")
     return 0

@@ -50,6 +50,8 @@ def read_study(path: Union[str, Path]) -> pd.DataFrame:
     rows: List[Dict[str, Any]] = []
     for group, own in study["groups"].items():
         rows += _runs_of(str(group), {**(study.get("common") or {}), **(own or {})}, str(path))
+    if not rows:
+        raise BadStudy(f"{path}: it has no runs")
     table = pd.DataFrame(rows).set_index("run")
     if not table.index.is_unique:
         twice = table.index[table.index.duplicated()][0]
@@ -74,11 +76,14 @@ def _combinations(entry: Mapping[str, Any], place: str) -> Iterable[Tuple[str, D
     """Every combination of the entry's values, with a name made of those that vary."""
     lists = {key: _list(value) for key, value in entry.items() if key != "zip"}
     axes = [[{key: one} for one in values] for key, values in lists.items()]
-    together = entry.get("zip", {})
+    together = {key: _list(value) for key, value in (entry.get("zip") or {}).items()}
     if len({len(values) for values in together.values()}) > 1:
         raise BadStudy(f"{place}: the lists of zip are of unequal lengths")
     if together:
         axes.append([dict(zip(together, ones)) for ones in zip(*together.values())])
+    empty = [key for key, values in lists.items() if not values or None in values]
+    if empty:
+        raise BadStudy(f"{place}: {empty[0]} has no value")
     varied = [key for axis in axes if len(axis) > 1 for key in axis[0]]
     for parts in itertools.product(*axes):
         values = {key: _words(value) for part in parts for key, value in part.items()}

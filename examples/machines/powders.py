@@ -56,7 +56,7 @@ def lactose(out: Path, lmp: Path, cores: int) -> pd.DataFrame:
     rows = []
     for d, seeds in SIZES["lactose"]:
         arguments = argparse.Namespace(
-            diameter=d, dref=1.0e-3, law="linear", seeds=seeds, first_seed=1, side=WIDTH, particles=0, preshear=5.0e3,
+            diameter=d, dref=1.0e-3, law="linear", seeds=seeds, first_seed=1, side=WIDTH, preshear=5.0e3,
             out=out / f"lactose_d{1e3 * d:g}mm", lmp=lmp, cores=cores, ranks=1, snakemake=[])
         (found,) = Simulation(arguments, targets.assign(stress=np.nan))([LACTOSE])
         rows += [{"d": d, **dict(zip(targets["quantity"], values))} for values in found]

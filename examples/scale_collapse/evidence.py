@@ -18,7 +18,7 @@ sys.path.insert(0, str(HERE.parents[1] / "coarsen"))
 
 import evidence_figures  # noqa: E402  (beside this file)
 from coarsen import evidence  # noqa: E402
-from coarsen.results import PRELOAD, tidy  # noqa: E402
+from coarsen.results import tidy  # noqa: E402
 from coarsen.study import read_study  # noqa: E402
 
 QUANTITIES = ["strain", "porosity_before", "porosity", "coordination", "bulk_modulus", "lateral_ratio",
@@ -51,7 +51,7 @@ def with_numbers(runs: pd.DataFrame) -> pd.DataFrame:
                + runs["level"].astype(str).str.split().str[-1])
     return runs.rename(columns={"weight": "gravity_is"}).assign(
         narrowness=runs["d"] / runs["side"],
-        inertia=runs["rate"] * runs["d"] * np.sqrt(runs["density"] / (PRELOAD * runs["ppack"])),
+        inertia=runs["inertial_number"],
         weight=mass * gravity / (size**2 * -runs["f0"]),
         strength=[row.get(column, np.nan) for column, (_, row) in zip(columns, runs.iterrows())])
 
@@ -105,6 +105,9 @@ def main() -> None:
     runs.to_csv(HERE / "results" / "evidence_runs.csv", float_format="%.6g")
     curves.to_csv(HERE / "results" / "evidence_curves.csv.gz", index=False, float_format="%.6g")
     found = slopes(runs)
+    soft = runs[runs["group"].isin(("overlap", "width"))]
+    pressure = soft["level"].astype(str).str.split().str[-1].astype(float) * soft["dref"] / soft["k1"]
+    print(f"overlap over p d/k1: {(soft['overlap'] / pressure).groupby(soft['k1']).mean().round(3).to_dict()}")
     known = with_numbers(runs)
     evidence_figures.limits(known, HERE / "results" / "evidence_limits.png")
     evidence_figures.loose(known, curves, HERE / "results" / "evidence_loose.png")

@@ -74,7 +74,7 @@ def loose(runs: pd.DataFrame, curves: pd.DataFrame, path: Path) -> None:
         for colour, d in zip(COLOURS, sorted(runs.loc[runs["group"] == usual, "d"].unique())):
             group = own[0] if own and d > 1.001e-3 else usual
             names: List[str] = list(runs.index[(runs["group"] == group) & np.isclose(runs["d"], d)])
-            own_curves = curves[curves["run"].isin(names)]
+            own_curves = curves[curves["run"].isin(names) & (curves["branch"] == "load")]
             if own_curves.empty:
                 continue
             mean = own_curves.groupby(own_curves.groupby("run").cumcount())[["strain", "stress"]].mean()

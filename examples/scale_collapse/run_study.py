@@ -16,6 +16,7 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "coarsen")]
 try:
     import yaml
     from coarsen import results, study, workflow
+    from coarsen.options import Parser
 except ImportError as missing:
     sys.exit(f"{sys.executable} has no {missing.name}; on Debian: apt-get install python3-{missing.name} and "
              f"/usr/bin/python3 {sys.argv[0]}")
@@ -24,7 +25,7 @@ BUILD = Path(os.environ.get("BUILD_DIR") or HERE.parents[1] / "build")
 
 
 def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+    parser = Parser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     parser.add_argument("study", nargs="?", default="collapse",
                         help="a study file, or the name of one here: "
                              + ", ".join(sorted(path.stem for path in HERE.glob("*.yaml"))))
@@ -48,7 +49,8 @@ def run(arguments: argparse.Namespace) -> None:
     if not path.is_file():
         raise FileNotFoundError(f"there is no study {name}: allowed are a file and "
                                 + ", ".join(sorted(one.stem for one in HERE.glob("*.yaml"))))
-    out = (arguments.out or BUILD / path.stem).resolve()
+    more = "".join(f"_{'_'.join(words)}" for words in arguments.var)  # so that runs are not overwritten
+    out = (arguments.out or BUILD / f"{path.stem}{more}").resolve()
     path = _with_variables(path, arguments.var, out)
     table = study.read_study(path)
     print("\n".join(f"{group}: {len(rows)} runs" for group, rows in table.groupby("group", sort=False)), flush=True)

@@ -19,6 +19,7 @@ from coarsen import calibrate, check, equivalence, evidence, measure, plan, repo
 from coarsen.__main__ import main  # noqa: E402
 from coarsen.dimensionless import Loading, Powder  # noqa: E402
 from coarsen.options import diameters, percentages  # noqa: E402
+from coarsen.results import read_results  # noqa: E402
 from coarsen.study import BadStudy, read_study, variables  # noqa: E402
 
 
@@ -48,6 +49,10 @@ class Study(unittest.TestCase):
         self.assertEqual(table.index[0], "g/d=1e-3,k1=1,k2=4")
         self.assertEqual(variables(table.iloc[5]), {"d": "2e-3", "k1": "3", "k2": "6", "e": "0.3"})
 
+    def test_spans_are_lists_in_zip_too(self):
+        table = study("groups:\n  g: {infile: in.a, zip: {d: [4, 5, 6, 7], seed: 1..4}}\n")
+        self.assertEqual(list(table["seed"]), ["1", "2", "3", "4"])
+
     def test_a_value_of_several_words_is_one_value(self):
         table = study("groups:\n  g: {infile: in.a, level: [[16e3, 96e3]], seed: [1, 2]}\n")
         self.assertEqual(list(table["level"]), ["16e3 96e3"] * 2)
@@ -67,7 +72,8 @@ class Study(unittest.TestCase):
                            ("groups: {g: {infile: a}}\nmore: 1", "`more` is not allowed"),
                            ("groups: {g: {infile: a, zip: {a: [1], b: [1, 2]}}}", "unequal lengths"),
                            ("groups: {g: {infile: a, d: [1, 1]}}", "two runs are named g/d=1"),
-                           ("groups: [", "study.yaml")):
+                           ("groups: {}", "it has no runs"), ("groups: {g: {infile: a, d: []}}", "d has no value"),
+                           ("groups: {g: {infile: a, k2: }}", "k2 has no value"), ("groups: [", "study.yaml")):
             with self.subTest(text), self.assertRaisesRegex(BadStudy, said):
                 study(text)
 
@@ -103,6 +109,9 @@ class Equivalence(unittest.TestCase):
         # p of no difference, from the interval found: error = (high - mean)/t
         mean = math.log1p(found.difference)
         self.assertAlmostEqual(mean / found.error, interval.statistic, places=10)
+        v = [np.log(x).var(ddof=1) / len(x) for x in (coarse, fine)]
+        freedom = sum(v)**2 / (v[0]**2 / 2 + v[1]**2 / 4)
+        self.assertAlmostEqual(math.log1p(found.high) - mean, found.error * stats.t.ppf(0.95, freedom), places=10)
 
     def test_false_equivalence_is_as_rare_as_it_says(self):
         # At the very edge of the tolerance one call in twenty may say equivalent.
@@ -140,7 +149,7 @@ def results(function, sizes=(1.0, 2.0, 3.0), seeds=5, scatter=0.01):
 
 
 class Check(unittest.TestCase):
-    def test_a_trend_is_followed_to_the_real_diameter(self):
+    def test_coarse_runs_are_compared_with_the_real_diameter(self):
         found = check.verdicts(results(lambda d: math.exp(-0.05 * d)), {"q": 0.04}, real=0.1)
         self.assertTrue(found["trend"].all())
         self.assertTrue((found["against"] == 0.1).all())
@@ -148,15 +157,37 @@ class Check(unittest.TestCase):
         self.assertAlmostEqual(math.log1p(row["difference"]), -0.05 * 2.9, delta=0.02)
         self.assertEqual(row["verdict"], equivalence.DIFFERENT)
 
-    def test_no_trend_no_extrapolation(self):
-        found = check.verdicts(results(lambda d: 1.0), {"q": 0.04}, real=0.1)
+    def test_a_slope_of_chance_is_in_the_interval(self):
+        # A difference at the very edge, with so little reach of diameters that no slope is significant.
+        random, said = np.random.default_rng(8), 0
+        slope = math.log1p(0.05) / 1.3
+        for _ in range(300):
+            table = pd.DataFrame([{"d": d, "seed": s, "q": math.exp(slope * d + 0.02 * random.standard_normal())}
+                                  for d in (1.0, 1.2, 1.4) for s in range(4)])
+            found = check.verdicts(table, {"q": 0.05}, real=0.1)
+            said += found["verdict"].iloc[-1] == equivalence.EQUIVALENT
+        self.assertLess(said, 0.09 * 300)
+
+    def test_between_the_diameters_the_interval_is_the_right_way_round(self):
+        row = check.verdicts(results(lambda d: 1.0), {"q": 0.04}, real=2.5).iloc[0]
+        self.assertLess(row["low"], row["high"])
+
+    def test_nothing_is_extrapolated_where_means_lie_on_no_straight_line(self):
+        found = check.verdicts(results(lambda d: 1.2 if d > 2.5 else 1.0), {"q": 0.04}, real=0.1).set_index("d")
         self.assertFalse(found["trend"].any())
         self.assertTrue((found["against"] == 1.0).all())
+        self.assertEqual(found.loc[2.0, "verdict"], equivalence.OPEN)  # equal to the finest, which is not the real one
+        self.assertEqual(found.loc[3.0, "verdict"], equivalence.DIFFERENT)
+
+    def test_without_a_real_diameter_the_finest_is_the_measure(self):
+        found = check.verdicts(results(lambda d: math.exp(-0.05 * d)), {"q": 0.2})
+        self.assertTrue((found["against"] == 1.0).all())
+        self.assertAlmostEqual(math.log1p(found["difference"].iloc[1]), -0.1, delta=0.02)
         self.assertEqual(check.overall(found["verdict"]), equivalence.EQUIVALENT)
 
-    def test_two_diameters_have_no_trend(self):
-        found = check.verdicts(results(lambda d: math.exp(-0.05 * d), sizes=(1.0, 2.0)), {"q": 0.2}, real=0.1)
-        self.assertFalse(found["trend"].any())
+    def test_what_does_not_depend_on_the_seed_proves_nothing(self):
+        with self.assertRaisesRegex(check.NothingToCompare, "does the in-file use its variable seed"):
+            check.verdicts(results(lambda d: 1.0, scatter=0.0), {"q": 0.04})
 
     def test_overall(self):
         yes, no, maybe = equivalence.EQUIVALENT, equivalence.DIFFERENT, equivalence.OPEN
@@ -167,13 +198,10 @@ class Check(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             log = Path(folder) / "log.lammps"
             log.write_text('print "Result strength $(v_s)"\nResult strength 12.5\nResult porosity 0.4\n')
-            self.assertEqual(check.read_results(Path(folder)), {"strength": 12.5, "porosity": 0.4})
+            self.assertEqual(read_results(Path(folder)), {"strength": 12.5, "porosity": 0.4})
             log.write_text("Result strength inf?\n")
-            with self.assertRaisesRegex(check.NothingToCompare, "result strength is inf?"):
-                check.read_results(Path(folder))
-            log.write_text("nothing\n")
-            with self.assertRaisesRegex(check.NothingToCompare, "no line `Result NAME NUMBER`"):
-                check.read_results(Path(folder))
+            with self.assertRaisesRegex(measure.BadRun, "result strength is inf?"):
+                read_results(Path(folder))
 
     def test_an_unknown_quantity_is_named(self):
         with self.assertRaisesRegex(check.NothingToCompare, "no run has the result z; there are q"):
@@ -280,6 +308,7 @@ class Evidence(unittest.TestCase):
         found = evidence.effect(table, "q", "narrowness")
         self.assertAlmostEqual(found.error, 0.1)
         self.assertAlmostEqual(found.scatter, 0.0)
+        self.assertEqual(found.studies, 1)  # of which the degrees of freedom of an interval come
 
     def test_prediction(self):
         found = evidence.predict(self.TABLE, "q", {"narrowness": (0.01, 0.11)})
@@ -341,6 +370,26 @@ class Plan(unittest.TestCase):
         self.assertEqual(plan.best(lines).diameter, 3e-3)
         self.assertIsNone(plan.best(lines[3:]))
         self.assertAlmostEqual(lines[1].core_seconds, lines[1].particles * lines[1].steps / 1e7)
+
+    def test_softer_stiffnesses_count_as_deeper_overlaps(self):
+        table = Evidence.TABLE.assign(number="overlap", most=0.2)
+        soft = self.powder.softened(4.0)
+        self.assertAlmostEqual(soft.time_step(2e-3), 2.0 * self.powder.time_step(2e-3))
+        wide = Loading(10.0, 10.0, 10.0, 0.6, 5e3, 1e5, 0.05, 0.2, 0.0)
+        one = plan.line(self.powder, wide, 1e-3, {"q": 0.9}, table, plan.Speed(1e7), True, simulated=soft)
+        # 0.08 instead of 0.02, at slopes of -1 and -2
+        self.assertAlmostEqual(one.predictions["q"].error, math.expm1(-1.5 * 0.06), places=6)
+
+    def test_what_is_not_known_of_the_coefficients_is_an_objection(self):
+        for calibrated, said in (({"q": 0.01}, 0), ({"q": math.nan}, 1), ({}, 1), (None, 0)):
+            one = plan.line(self.powder, self.loading, 2e-3, {"q": 0.9}, Evidence.TABLE, plan.Speed(1e7), True, calibrated)
+            self.assertEqual(len(one.objections), said, one.objections)
+
+    def test_a_series_begins_with_the_real_diameter(self):
+        powder = Powder(1.04e-3, 2000.0, 1e-3, 5e3, 1e4, 5e3, -1e-4)
+        found = plan.series(powder, self.loading)
+        self.assertEqual(found[0], 1.04e-3)
+        self.assertEqual(plan.series(Powder(9e-3, 2000.0, 1e-3, 5e3, 1e4, 5e3, -1e-4), self.loading), [9e-3])
 
     def test_bad_values_are_named(self):
         for make, said in ((lambda: Powder(1e-3, 2000, 1e-3, 5e3, 4e3, 0, 0), "k2 is 4000, allowed is k1"),
@@ -464,6 +513,11 @@ class Commands(unittest.TestCase):
             written = path.read_text()
         self.assertRegex(written, r"variable d +index 0\.002\n")
         self.assertRegex(written, r"variable f0 +index -1e-07\n")
+        # at dref = 50 um packed as stiffly and as fast as 1 mm with 5e3 N/m and 1/s
+        self.assertRegex(written, r"variable kpack +index 250\n")
+        self.assertRegex(written, r"variable packrate +index 20\n")
+        self.assertRegex(written, r"variable level +index 100000\n")
+        self.assertRegex(written, r"variable ppack +index 4000\n")
 
     def test_plan_without_a_diameter_says_so(self):
         status, text = call(*self.words, "--want", "porosity=0.01", "--diameters", "2e-3")
@@ -477,6 +531,8 @@ class Commands(unittest.TestCase):
                 ([*self.words, "--want", "porosity"], "--want porosity: allowed is NAME=PERCENT"),
                 ([*self.words, "--want", "porosity=200"], "allowed is NAME=PERCENT with more than 0"),
                 ([*self.words, "--want", "porosity=5", "--diameters", "1e-5"], "--diameters 1e-05: allowed are 5e-05"),
+                ([*self.words, "--want", "porosity=5", "--length", "1", "--write", "x"], "--length is 1: the include file"),
+                ([*self.words, "--want", "porosity=5", "--soften", "0.5"], "stiffnesses are divided by 0.5, allowed is 1"),
                 (["check", "in.none", "--diameters", "1", "2", "--want", "a=1"], "there is no in.none"),
                 (["check", __file__, "--diameters", "1", "--want", "a=1"], "allowed are two or more, each once"),
                 (["check", __file__, "--diameters", "1", "2", "--want", "a=1", "--seeds", "1"], "--seeds is 1"),

@@ -61,7 +61,7 @@ class Runs(unittest.TestCase):
     def test_scaled_is_equivalent_and_unscaled_is_not(self):
         status, text = self.check()
         self.assertEqual(status, 0, text)
-        self.assertRegex(text, r"stress +2 +[+-]0\.00% .* equivalent")
+        self.assertRegex(text, r"stress +0\.002 +0\.001 +[+-]0\.00% .* equivalent")
         self.assertIn("equivalent: ", text)
         self.assertIn("[6 of 6 runs done, about 0 s left]", text)
         # A run that is there is not repeated, and another variable makes all of them new.
@@ -71,7 +71,7 @@ class Runs(unittest.TestCase):
         self.assertEqual(done.stat().st_mtime_ns, before)
         status, text = self.check("--var", "scaled", "no")
         self.assertEqual(status, 3, text)
-        self.assertRegex(text, r"stress +2 +-50\.00% .* different")
+        self.assertRegex(text, r"stress +0\.002 +0\.001 +-50\.00% .* different")
         self.assertGreater(done.stat().st_mtime_ns, before)
 
     def test_a_changed_in_file_makes_runs_old(self):
@@ -79,7 +79,7 @@ class Runs(unittest.TestCase):
         (self.folder / "in.mine").write_text(INFILE.replace("/v_d^2", "/v_d"))
         status, text = self.check()
         self.assertEqual(status, 3, text)
-        self.assertRegex(text, r"stress +2 +\+100\.00% .* different")
+        self.assertRegex(text, r"stress +0\.002 +0\.001 +\+100\.00% .* different")
 
     def test_a_run_that_fails_is_named_with_its_log(self):
         (self.folder / "in.mine").write_text(INFILE.replace("run 0", "run nonsense"))
@@ -96,7 +96,7 @@ class Runs(unittest.TestCase):
         (self.folder / "in.mine").write_text(INFILE.replace("Result ", "Outcome "))
         status, text = self.check()
         self.assertEqual(status, 1, text)
-        self.assertIn("no line `Result NAME NUMBER`", text)
+        self.assertIn("lines `Result NAME NUMBER` of stress", text)
 
     def test_a_run_after_the_run(self):
         (self.folder / "in.mine").write_text(INFILE + "write_restart ${out}/state.restart\n")
@@ -106,13 +106,55 @@ class Runs(unittest.TestCase):
                                "--want", "stress=5", "particles=1", "--then", "in.then", "--state", "state",
                                "--lmp", LMP, "--cores", "2")
         self.assertEqual(status, 0, text)
-        self.assertRegex(text, r"particles +2 +\+0\.00% .* equivalent")
+        self.assertRegex(text, r"particles +0\.002 +0\.001 +\+0\.00% .* equivalent")
+
+    def test_folders_with_spaces_and_names_of_any_form(self):
+        folder = self.folder / "my runs"
+        folder.mkdir()
+        (folder / "press.lmp").write_text(INFILE.replace("run 0", "include ${files}/in.then run 0".replace(" run 0", "")))
+        (folder / "in.then").write_text("run 0\n")
+        status, text = coarsen(folder, "check", "press.lmp", "--diameters", "1e-3", "2e-3", "--seeds", "2", "--want",
+                               "stress=5", "--var", "unused", "-2e-4", "--out", "out of it", "--lmp", LMP)
+        self.assertEqual(status, 0, text)
+        self.assertTrue((folder / "out of it/check/d=0.002,seed=2/infiles/press.lmp").is_file())
+
+    def test_a_study_of_any_in_file_has_a_table(self):
+        (self.folder / "study.yaml").write_text(
+            "groups: {one: {infile: in.mine, d: [1e-3, 2e-3], seed: 1..2}}\n")
+        status, text = coarsen(self.folder, "run", "study.yaml", "--lmp", LMP)
+        self.assertEqual(status, 0, text)
+        lines = (self.folder / "coarsen_run/runs.csv").read_text().splitlines()
+        self.assertEqual(len(lines), 5)
+        self.assertIn("stress", lines[0].split(","))
+        status, text = coarsen(self.folder, "report", "coarsen_run")
+        self.assertEqual(status, 1, text)
+        self.assertIn("no run is a specimen of in.confined", text)
 
     def test_no_lammps_is_said_so(self):
         status, text = coarsen(self.folder, "check", "in.mine", "--diameters", "1", "2", "--want", "a=1", "--lmp",
                                "no_such_lmp")
         self.assertEqual(status, 1)
         self.assertIn("no LAMMPS at no_such_lmp", text)
+
+    def test_a_specimen_is_calibrated_checked_and_reported(self):
+        infiles = ROOT / "examples" / "scale_collapse"
+        (self.folder / "targets.csv").write_text("quantity,stress,value,error\nstrain,1.2e4,0.0025,0.0001\n")
+        status, text = coarsen(self.folder, "calibrate", "targets.csv", "--diameter", "3e-3", "--side", "18e-3", "--free",
+                               "k1", "--seeds", "2", "--steps", "2", "--lmp", LMP)
+        self.assertEqual(status, 0, text)
+        self.assertRegex((self.folder / "coarsen_calibrate/in.calibrated").read_text(),
+                         r"variable k1 +index \S+ +# found, \+- ")
+        found = (self.folder / "coarsen_calibrate/calibration.csv").read_text().splitlines()
+        value, error = (float(x) for x in found[1].split(",")[4:6])
+        self.assertAlmostEqual(value, 0.0025, delta=0.0005)
+        self.assertGreater(error, 0.03)  # 4% of the target
+        status, text = coarsen(self.folder, "check", infiles / "in.confined", "--diameters", "2e-3", "3e-3", "--seeds",
+                               "2", "--var", "side", "18e-3", "--var", "nref", "6998", "--var", "level", "16e3", "--var",
+                               "rate", "2", "--want", "strain=50", "porosity=20", "--lmp", LMP)
+        self.assertIn(status, (0, 4), text)
+        status, text = coarsen(self.folder, "report", "coarsen_check")
+        self.assertEqual(status, 0, text)
+        self.assertIn("plotly", (self.folder / "coarsen_check/report.html").read_text())
 
 
 if __name__ == "__main__":

@@ -106,6 +106,13 @@ class Tables(unittest.TestCase):
         self.assertLess(self.row(2e-3, special="0.25/s")["curve_error"], 0.05)
         self.assertGreater(self.row(2e-3)["curve_error"], 0.5)
 
+    def test_curves_come_in_the_order_of_the_names(self):
+        # Names sort otherwise than seeds: the first one is in a group of its own.
+        runs, curves = study([specimen("base-z", 1e-3, 1, packing=0.1), specimen("base", 1e-3, 2), specimen("base", 1e-3, 3)])
+        names = tables.names_of(runs, material="base")
+        rows = tables.curve_matrix(curves, names, "load", np.array([0.02]))
+        self.assertLess(rows[0, 0], rows[1, 0])
+
     def test_twins_are_compared_seed_by_seed(self):
         found = tables.twins(self.runs, self.curves, [f"strength_{LEVEL}"])
         one = found[np.isclose(found["coarse"], 3e-3)].iloc[0]

@@ -33,7 +33,7 @@ def write(runs: pd.DataFrame, curves: pd.DataFrame, out: Path) -> str:
         figures.confined(own, curves, material, out / f"confined_{material}.png", table)
         if any(own[f"strength_{level}"].notna().any() for level in levels):
             figures.unconfined(own, curves, material, levels, out / f"unconfined_{material}.png")
-    if levels:
+    if levels and (runs["material"] == "base").any():
         lines += _strength(runs[~varied], runs, curves, table, levels, out)
     text = "\n".join(lines) + "\n"
     (out / "summary.txt").write_text(text, encoding="utf-8")

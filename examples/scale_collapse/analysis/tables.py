@@ -55,10 +55,10 @@ def deviation_percent(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
 
 def curve_matrix(curves: pd.DataFrame, names: Sequence[str], branch: str, grid: np.ndarray, x: str = "strain",
                  y: str = "stress") -> np.ndarray:
-    """y over x of runs on one grid, a row a run."""
+    """y over x of runs on one grid, a row a run in the order of the names, without those that lack the branch."""
     own = curves[(curves["branch"] == branch) & curves["run"].isin(names)]
-    return np.array([np.interp(grid, *some.sort_values(x)[[x, y]].to_numpy().T)
-                     for _, some in own.groupby("run")])
+    by_run = {run: some.sort_values(x)[[x, y]].to_numpy().T for run, some in own.groupby("run")}
+    return np.array([np.interp(grid, *by_run[name]) for name in names if name in by_run])
 
 
 def reach(curves: pd.DataFrame, names: Sequence[str], branch: str, x: str = "strain") -> Tuple[float, float]:
