@@ -32,11 +32,13 @@ OUTSIDE = 0.1
 
 
 def slopes_of(runs: pd.DataFrame, study: str, quantities: Iterable[str], numbers: Sequence[str],
-              family: str = "", included: Mapping[str, float] = MappingProxyType({})) -> pd.DataFrame:
+              family: str = "", paired: bool = False, included: Mapping[str, float] = MappingProxyType({})) -> pd.DataFrame:
     """The slopes that one study gives, a row a quantity and number.
 
     :param runs: a row a run, or a mean of runs with its relative error in a column QUANTITY_error;
         columns of the quantities (above 0) and of the numbers. A number that does not vary gives no row.
+    :param paired: whether runs of a seed have one packing whatever the numbers, so that its scatter is none of
+        theirs
     :param included: other numbers that went with the first of `numbers` and are in its slope, with their largest
         values
     :param family: of studies whose packings are the same (the study itself if none): they have one
@@ -51,6 +53,8 @@ def slopes_of(runs: pd.DataFrame, study: str, quantities: Iterable[str], numbers
         if len(known) < 2 + len(varying) or not varying:
             continue
         x, y = sm.add_constant(known[varying].astype(float)), np.log(known[quantity].astype(float))
+        if paired:
+            x = x.join(pd.get_dummies(known["seed"], prefix="seed", drop_first=True, dtype=float))
         if f"{quantity}_error" in known:
             fit = sm.WLS(y, x, weights=known[f"{quantity}_error"].astype(float)**-2.0).fit(
                 cov_type="fixed scale")

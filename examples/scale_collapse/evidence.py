@@ -17,7 +17,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "coarsen"))
 
 import evidence_figures  # noqa: E402  (beside this file)
-from coarsen import evidence  # noqa: E402
+from coarsen import check, evidence  # noqa: E402
 from coarsen.results import tidy  # noqa: E402
 from coarsen.study import read_study  # noqa: E402
 
@@ -31,6 +31,8 @@ STUDIES = {"dense": (["width"], ["narrowness"]),
            "loose": (["loose", "loose_fine", "loose_true_weight", "loose_narrow"], ["narrowness", "weight"]),
            "rate": (["inertia"], ["inertia"]),
            "soft": (["overlap"], ["overlap"])}
+#: Beyond it the effect of the inertial number is no longer in proportion to it, and grows fast (evidence.md).
+LINEAR_INERTIA = 2.0e-3
 #: At one rate in one machine the inertial number goes with d, and its effect is in the slope over d/W.
 INCLUDED = {"shear_cell": {"inertia": 3.8e-3}}
 #: Of results/strength.csv; the others are these with one coefficient a little changed.
@@ -86,7 +88,8 @@ def slopes(runs: pd.DataFrame) -> pd.DataFrame:
     known = with_numbers(runs)
     parts: List[pd.DataFrame] = []
     for study, (groups, numbers) in STUDIES.items():
-        parts.append(evidence.slopes_of(known[known["group"].isin(groups)], study, QUANTITIES, numbers))
+        some = known[known["group"].isin(groups) & (known["inertia"] <= LINEAR_INERTIA)]
+        parts.append(evidence.slopes_of(some, study, QUANTITIES, numbers, paired=study in ("rate", "soft")))
     for study, means in older(HERE / "results" / "strength.csv").items():
         parts.append(evidence.slopes_of(means, study, QUANTITIES, ["narrowness"], "strength.md"))
     for machine, means in machines(HERE.parent / "machines" / "coarse.csv").items():
@@ -95,12 +98,87 @@ def slopes(runs: pd.DataFrame) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
+#: Rows of the tables of evidence.md: what it says, and group, variables of the coarse and of the fine specimens.
+COMPARED = (
+    *((f"dense, one box, {1e3 * d:g} mm with 0.5 mm", ("ratio", {"d": d}), ("ratio", {"d": 0.5e-3}))
+      for d in (1e-3, 1.5e-3, 2e-3, 3e-3)),
+    *((f"the same, unscaled, {1e3 * d:g} mm", ("ratio_unscaled", {"d": d}), ("ratio", {"d": 0.5e-3}))
+      for d in (1e-3, 2e-3, 3e-3)),
+    *((f"loose, gravity over s, {1e3 * d:g} mm with 1 mm", ("loose", {"d": d}), ("loose_fine", {}))
+      for d in (1.5e-3, 2e-3, 3e-3)),
+    *((f"loose, the same gravity, {1e3 * d:g} mm", ("loose_true_weight", {"d": d}), ("loose_fine", {}))
+      for d in (2e-3, 3e-3)),
+    *((f"loose, unscaled, {1e3 * d:g} mm", ("loose_unscaled", {"d": d}), ("loose_fine", {})) for d in (2e-3, 3e-3)),
+    ("loose, as many diameters wide, 2 mm with 1 mm", ("loose", {"d": 2e-3}), ("loose_narrow", {"side": 15e-3})),
+    ("loose, as many diameters wide, 3 mm with 1 mm", ("loose", {"d": 3e-3}), ("loose_narrow", {"side": 10e-3})),
+    ("log-normal, 3 mm with 1.5 mm, one box", ("sizes", {"d": 3e-3, "side": 30e-3}), ("sizes", {"d": 1.5e-3})),
+    ("log-normal, 3 mm with 1.5 mm, as many wide", ("sizes", {"d": 3e-3, "side": 60e-3}), ("sizes", {"d": 1.5e-3})),
+    *((f"{w} diameters wide with 30", ("width", {"side": w * 2e-3}), ("width", {"side": 60e-3}))
+      for w in (6, 8, 10, 15, 20)),
+    *((f"rate {r:g}/s with 0.2/s", ("inertia", {"rate": r}), ("inertia", {"rate": 0.2})) for r in (0.5, 1.5, 5.0, 10.0)),
+    *((f"stiffness over {5e3 / k:g}", ("overlap", {"k1": k}), ("overlap", {"k1": 5e3})) for k in (2e3, 1e3, 5e2)))
+
+
+def _chosen(known: pd.DataFrame, group: str, values: Dict[str, float]) -> pd.DataFrame:
+    some = known[known["group"] == group]
+    for name, value in values.items():
+        some = some[np.isclose(some[name], value)]
+    return some
+
+
+def compared(known: pd.DataFrame) -> pd.DataFrame:
+    """The rows of COMPARED that there are runs for: differences in %, ± standard error, of every quantity; with the
+    mean d/W, inertial number and overlap of the coarse specimens."""
+    rows = []
+    for what, *kinds in COMPARED:
+        coarse, fine = (_chosen(known, *kind) for kind in kinds)
+        if coarse.empty or fine.empty:
+            continue
+        row = {"what": what, "packings": f"{len(coarse)}, {len(fine)}", "W/d": 1.0 / coarse["narrowness"].mean(),
+               "I": coarse["inertia"].mean(), "overlap": coarse["overlap"].mean()}
+        for quantity in QUANTITIES:
+            one, other = (np.log(some[quantity].dropna().to_numpy()) for some in (coarse, fine))
+            if len(one) and len(other):
+                error = np.sqrt(sum(x.var(ddof=1) / len(x) for x in (one, other) if len(x) > 1))
+                row[quantity] = f"{100 * np.expm1(one.mean() - other.mean()):+.1f} ± {100 * error:.1f}"
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def resampling(runs: pd.DataFrame, seeds: int = 6, count: int = 200) -> pd.DataFrame:
+    """How often `coarsen check` says what, of packings drawn from those of resample.yaml: groups that are equal but for
+    chance, and groups that are not. `truth` is the difference of all packings, %."""
+    rows = []
+    for what, coarse, fine, quantity, tolerance in (
+            ("scaled, as many diameters wide", "coarse", "fine", "strain", 0.05),
+            ("scaled, as many diameters wide", "coarse", "fine", "strength_96e3", 0.10),
+            ("unscaled", "unscaled", "fine", "strain", 0.05),
+            ("unscaled", "unscaled", "fine", "bulk_modulus", 0.05),
+            ("10 diameters wide, not 20", "coarse", "wide", "strength_96e3", 0.05)):
+        both = pd.concat([runs[runs["group"] == coarse].assign(d=2.0), runs[runs["group"] == fine].assign(d=1.0)])
+        table = both.pivot(index="seed", columns="d", values=quantity).dropna()
+        if len(table) < seeds:
+            continue
+        said = check.resample(both, quantity, 2.0, 1.0, min(seeds, len(table)), count, tolerance, fine != "wide")
+        rows.append({"what": what, "quantity": quantity, "allowed (%)": 100 * tolerance, "packings": len(table),
+                     "truth": 100.0 * np.expm1(np.log(table[2.0] / table[1.0]).mean()),
+                     "error": 100.0 * np.log(table[2.0] / table[1.0]).sem(), **said.to_dict()})
+    return pd.DataFrame(rows)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=HERE.parents[1] / "build" / "evidence",
                         help="folder of the runs")
     parser.add_argument("--study", type=Path, default=HERE / "evidence.yaml")
+    parser.add_argument("--resample", action="store_true",
+                        help="instead, how often `coarsen check` is right on the runs of resample.yaml")
     arguments = parser.parse_args()
+    if arguments.resample:
+        runs, _ = tidy(read_study(HERE / "resample.yaml"), arguments.out, HERE)
+        runs.to_csv(HERE / "results" / "resample_runs.csv", float_format="%.6g")
+        print(resampling(runs).round(2).to_string(index=False))
+        return
     runs, curves = tidy(read_study(arguments.study), arguments.out, HERE)
     runs.to_csv(HERE / "results" / "evidence_runs.csv", float_format="%.6g")
     curves.to_csv(HERE / "results" / "evidence_curves.csv.gz", index=False, float_format="%.6g")
@@ -109,6 +187,9 @@ def main() -> None:
     pressure = soft["level"].astype(str).str.split().str[-1].astype(float) * soft["dref"] / soft["k1"]
     print(f"overlap over p d/k1: {(soft['overlap'] / pressure).groupby(soft['k1']).mean().round(3).to_dict()}")
     known = with_numbers(runs)
+    table = compared(known)
+    table.to_csv(HERE / "results" / "evidence.csv", index=False, float_format="%.3g")
+    print(table.round(5).to_string(index=False))
     evidence_figures.limits(known, HERE / "results" / "evidence_limits.png")
     evidence_figures.loose(known, curves, HERE / "results" / "evidence_loose.png")
     found.to_csv(evidence.TABLE, index=False, float_format="%.5g")

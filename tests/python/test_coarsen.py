@@ -281,6 +281,15 @@ class Evidence(unittest.TestCase):
         self.assertLess(found.loc["narrowness", "error"], 0.03)
         self.assertEqual(found.loc["narrowness", "most"], 0.1)
 
+    def test_packings_that_are_the_same_do_not_scatter(self):
+        runs = pd.DataFrame([{"seed": s, "inertia": i, "q": math.exp(5.0 * i + 0.3 * s + 1e-4 * (-1)**(s + int(1e3 * i)))}
+                             for s in range(4) for i in (1e-3, 2e-3, 5e-3)])
+        found = {paired: evidence.slopes_of(runs, "made", ["q"], ["inertia"], paired=paired).iloc[0]
+                 for paired in (False, True)}
+        self.assertAlmostEqual(found[True]["slope"], 5.0, delta=0.1)
+        self.assertLess(found[True]["error"], 0.05)
+        self.assertGreater(found[False]["error"], 10.0)
+
     def test_of_means_with_errors(self):
         means = pd.DataFrame({"narrowness": [0.0, 1.0], "q": [1.0, math.e], "q_error": [0.3, 0.4]})
         self.assertTrue(evidence.slopes_of(means, "made", ["q"], ["narrowness"]).empty)  # nothing to judge by
