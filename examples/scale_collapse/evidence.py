@@ -23,6 +23,8 @@ from coarsen.study import read_study  # noqa: E402
 
 QUANTITIES = ["strain", "porosity_before", "porosity", "coordination", "bulk_modulus", "lateral_ratio",
               "strength"]
+NAMES = {"strain": "strain", "porosity_before": "porosity before", "porosity": "porosity", "coordination": "Z",
+         "bulk_modulus": "bulk modulus", "lateral_ratio": "lateral ratio", "strength": "strength"}
 #: Groups of evidence.yaml that are one study of one powder, and the numbers that they vary. Within `loose`
 #: the inertial number goes with d/W; it stays below a thousandth.
 STUDIES = {"dense": (["width"], ["narrowness"]),
@@ -119,6 +121,17 @@ COMPARED = (
     *((f"stiffness over {5e3 / k:g}", ("overlap", {"k1": k}), ("overlap", {"k1": 5e3})) for k in (2e3, 1e3, 5e2)))
 
 
+def markdown(table: pd.DataFrame) -> str:
+    """Rows of `compared` for evidence.md."""
+    lines = ["| | packings | W/d | I | δ/d | " + " | ".join(NAMES[q] for q in QUANTITIES) + " |",
+             "|---" * (5 + len(QUANTITIES)) + "|"]
+    for row in table.to_dict("records"):
+        cells = [row["what"], row["packings"], f"{row['W/d']:.3g}", f"{row['I']:.1e}", f"{row['overlap']:.3f}",
+                 *("" if pd.isna(row.get(q)) else row[q] for q in QUANTITIES)]
+        lines.append("| " + " | ".join(cells).replace("-", "−").replace("e−0", "e-") + " |")
+    return "\n".join(lines)
+
+
 def _chosen(known: pd.DataFrame, group: str, values: Dict[str, float]) -> pd.DataFrame:
     some = known[known["group"] == group]
     for name, value in values.items():
@@ -189,7 +202,10 @@ def main() -> None:
     known = with_numbers(runs)
     table = compared(known)
     table.to_csv(HERE / "results" / "evidence.csv", index=False, float_format="%.3g")
-    print(table.round(5).to_string(index=False))
+    page = HERE / "evidence.md"
+    before, _, rest = page.read_text(encoding="utf-8").partition("<!-- made by evidence.py -->\n")
+    _, end, after = rest.partition("<!-- until here -->")
+    page.write_text(f"{before}<!-- made by evidence.py -->\n{markdown(table)}\n{end}{after}", encoding="utf-8")
     evidence_figures.limits(known, HERE / "results" / "evidence_limits.png")
     evidence_figures.loose(known, curves, HERE / "results" / "evidence_loose.png")
     found.to_csv(evidence.TABLE, index=False, float_format="%.5g")
