@@ -116,6 +116,7 @@ def main() -> None:
     parser.add_argument("--lmp", default=None)
     parser.add_argument("--cores", type=int, default=workflow.cores())
     parser.add_argument("--predict", action="store_true", help="only the predictions, without a run")
+    parser.add_argument("--only", nargs="+", choices=list(SIZES), default=list(SIZES), help="some of the powders")
     arguments = parser.parse_args()
     out, table = arguments.out.resolve(), evidence.read()
     nothing = pd.DataFrame({"d": []})
@@ -131,6 +132,8 @@ def main() -> None:
                      Loading(ORIFICE, ORIFICE, ORIFICE, 0.55, 300.0, 300.0, 1e-3, 1.0, 0.0))}
     rows: List[dict] = []
     for case, (run, quantities, powder, loading) in cases.items():
+        if case not in arguments.only:
+            continue
         runs = (nothing.reindex(columns=["d", *quantities]) if arguments.predict
                 else run(out, workflow.find_lmp(arguments.lmp), arguments.cores))
         rows += compare(case, runs, quantities, powder, loading, table)

@@ -387,8 +387,8 @@ class Plan(unittest.TestCase):
         self.assertAlmostEqual(soft.time_step(2e-3), 2.0 * self.powder.time_step(2e-3))
         wide = Loading(10.0, 10.0, 10.0, 0.6, 5e3, 1e5, 0.05, 0.2, 0.0)
         one = plan.line(self.powder, wide, 1e-3, {"q": 0.9}, table, plan.Speed(1e7), True, simulated=soft)
-        # 0.08 instead of 0.02, at slopes of -1 and -2
-        self.assertAlmostEqual(one.predictions["q"].error, math.expm1(-1.5 * 0.06), places=6)
+        # four times 0.43 p d/k1 instead of once, at slopes of -1 and -2
+        self.assertAlmostEqual(one.predictions["q"].error, math.expm1(-1.5 * 3 * 0.43 * 0.02), places=6)
 
     def test_what_is_not_known_of_the_coefficients_is_an_objection(self):
         for calibrated, said in (({"q": 0.01}, 0), ({"q": math.nan}, 1), ({}, 1), (None, 0)):
