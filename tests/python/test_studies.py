@@ -232,7 +232,7 @@ class Runs(unittest.TestCase):
             means = pd.read_csv(out / "means.csv", keep_default_na=True)
             runs = pd.read_csv(out / "runs.csv", index_col="run")
             pictures = list(out.glob("plateau/**/*.png"))
-        self.assertEqual(len(runs), 22)
+        self.assertEqual(len(runs), 25)
         self.assertTrue(runs["strength_36e3"].dropna().between(500.0, 20000.0).all())
         self.assertTrue(means["strain"].between(1e-3, 0.05).all())
         self.assertEqual(len(pictures), 4)
