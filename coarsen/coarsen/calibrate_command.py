@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import sys
 from pathlib import Path
+from types import ModuleType
 from typing import Any, Dict, List, Mapping, Sequence
 
 import numpy as np
@@ -146,15 +148,11 @@ class Simulation:
 
     def _shear_cells(self, sets: Sequence[Mapping[str, float]]) -> np.ndarray:
         a = self._arguments
-        sys.path[:0] = [str(SHEAR_CELL), str(EXAMPLES)]
-        import geometry  # of the shear tester
-        import yield_locus
-        from run import MESH, SHAPE
-
+        geometry, yield_locus = _of_shear_cell("geometry"), _of_shear_cell("yield_locus")
         meshes = a.out / "shear_cells"
         meshes.mkdir(parents=True, exist_ok=True)
-        geometry.write(meshes, MESH)
-        more = {**{k: repr(v) for k, v in SHAPE.items()}, "consolidation": repr(a.preshear), "stl": str(meshes),
+        geometry.write(meshes, geometry.MESH)
+        more = {**{k: repr(v) for k, v in geometry.SHAPE.items()}, "consolidation": repr(a.preshear), "stl": str(meshes),
                 "shared": str(EXAMPLES / "machines"), "rate": 2.0}
         groups = {}
         for values in sets:
@@ -181,6 +179,18 @@ class Simulation:
                     raise ValueError(f"{folder}: {odd[0]} is {known[odd[0]]:g}, so that it can not be fitted")
                 found.append([known[q] for q in wanted])
         return np.array(found).reshape(len(sets), a.seeds, -1)
+
+
+def _of_shear_cell(name: str) -> ModuleType:
+    """A module of examples/shear_cell, under a name of its own: other machines have a geometry, too."""
+    if str(EXAMPLES) not in sys.path:
+        sys.path.insert(0, str(EXAMPLES))  # of the package `machines`
+    own = f"shear_cell_{name}"
+    if own not in sys.modules:
+        spec = importlib.util.spec_from_file_location(own, SHEAR_CELL / f"{name}.py")
+        sys.modules[own] = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(sys.modules[own])
+    return sys.modules[own]
 
 
 def _name(values: Mapping[str, float]) -> str:

@@ -99,7 +99,8 @@ def effect(table: pd.DataFrame, quantity: str, number: str) -> Effect:
     known = (len(once), float(rows["most"].max()), _root_mean_square(rows["misfit"]))
     if len(once) == 1:
         return Effect(once["slope"].iloc[0], once["error"].iloc[0], math.sqrt(within), *known)
-    pooled = combine_effects(once["slope"].to_numpy(), once["error"].to_numpy()**2, method_re="dl")
+    with np.errstate(invalid="ignore"):  # it takes the root of a scatter below zero, too
+        pooled = combine_effects(once["slope"].to_numpy(), once["error"].to_numpy()**2, method_re="dl")
     if pooled.tau2 <= 0.0:  # they scatter less than their errors say
         return Effect(float(pooled.mean_effect_fe), float(pooled.sd_eff_w_fe), math.sqrt(within), *known)
     return Effect(float(pooled.mean_effect_re), float(pooled.sd_eff_w_re), math.sqrt(pooled.tau2 + within), *known)

@@ -170,7 +170,7 @@ def resampling(runs: pd.DataFrame, seeds: int = 6, count: int = 200) -> pd.DataF
             ("unscaled", "unscaled", "fine", "bulk_modulus", 0.05),
             ("10 diameters wide, not 20", "coarse", "wide", "strength_96e3", 0.05)):
         both = pd.concat([runs[runs["group"] == coarse].assign(d=2.0), runs[runs["group"] == fine].assign(d=1.0)])
-        table = both.pivot(index="seed", columns="d", values=quantity).dropna()
+        table = both.pivot(index="seed", columns="d", values=quantity).reindex(columns=[1.0, 2.0]).dropna()
         if len(table) < seeds:
             continue
         said = check.resample(both, quantity, 2.0, 1.0, min(seeds, len(table)), count, tolerance, fine != "wide")

@@ -15,6 +15,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from machines import meshes  # noqa: E402
 
+#: Of the in-files, m: radii of the ring, height of bars and vanes, part of the circle that they take, gap of the lid; and what the
+#: meshes need besides.
+SHAPE = {"inner": 0.016, "outer": 0.032, "tooth": 0.003, "share": 0.15, "gap": 0.0003}
+MESH = {**SHAPE, "height": 0.05, "teeth": 20, "facets": 120}
+
 
 def bottom(inner: float, outer: float, teeth: int, tooth: float, share: float, gap: float,
            facets: int) -> np.ndarray:

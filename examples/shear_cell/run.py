@@ -25,8 +25,7 @@ from machines import meshes, running, tables  # noqa: E402
 from machines.pictures import draw_section, plt, save  # noqa: E402
 from machines.running import Run  # noqa: E402
 
-SHAPE = {"inner": 0.016, "outer": 0.032, "tooth": 0.003, "share": 0.15, "gap": 0.0003}
-MESH = {**SHAPE, "height": 0.05, "teeth": 20, "facets": 120}
+SHAPE, MESH = geometry.SHAPE, geometry.MESH
 LEVELS = (0.25, 0.5, 0.75)
 DIAMETERS = [1.5e-3, 2.0e-3, 3.0e-3]    # the finest first
 
