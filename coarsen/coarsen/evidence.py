@@ -135,7 +135,8 @@ def predict(table: pd.DataFrame, quantity: str, changes: Mapping[str, Tuple[floa
     """:param changes: numbers of the real and of the coarse particles, by name
     :param of_coefficients: relative error that the coefficients leave in the quantity
     """
-    total, variance, outside, freedom = 0.0, of_coefficients**2, [], math.inf
+    total, variance, outside = 0.0, of_coefficients**2, []
+    spread_of_freedom = 0.0  # variances squared over their degrees of freedom
     for number, (fine, coarse) in changes.items():
         if math.isclose(fine, coarse, rel_tol=1e-9):
             continue
@@ -150,8 +151,11 @@ def predict(table: pd.DataFrame, quantity: str, changes: Mapping[str, Tuple[floa
             outside.append(f"{NUMBERS[number]} of {max(fine, coarse):.3g}, evidence for {quantity} ends at "
                            f"{found.most:.3g}")
         mean, spread = found.change(fine, coarse)
-        total, variance = total + mean, variance + spread + found.misfit**2
-        freedom = min(freedom, max(1, found.studies - 1))
+        part = spread + found.misfit**2
+        total, variance = total + mean, variance + part
+        spread_of_freedom += part**2 / max(1, found.studies - 1)
+    # Welch and Satterthwaite: a small part that is badly known does not make the whole badly known
+    freedom = variance**2 / spread_of_freedom if spread_of_freedom > 0.0 else math.inf
     reach = math.sqrt(variance) * (stats.t.ppf(1.0 - OUTSIDE / 2.0, freedom) if math.isfinite(freedom) else
                                    stats.norm.ppf(1.0 - OUTSIDE / 2.0))
     return Prediction(math.expm1(total), math.expm1(total - reach), math.expm1(total + reach), tuple(outside))

@@ -15,10 +15,11 @@ import pandas as pd  # noqa: E402
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 LABELS = {"strain": "strain", "porosity_before": "porosity before loading", "porosity": "porosity",
           "coordination": "coordination number", "bulk_modulus": "bulk modulus", "strength": "strength"}
-#: Group of the runs, the number that it varies, how that is called, and whether its axis is logarithmic.
-LIMITS: Tuple[Tuple[str, str, str, bool], ...] = (
-    ("width", "narrowness", "d/W", False), ("inertia", "inertia", "inertial number", True),
-    ("overlap", "overlap", "overlap δ/d under the last stress", False))
+#: Group of the runs, its variable, the number that it varies, how that is called, and whether its axis is
+#: logarithmic.
+LIMITS: Tuple[Tuple[str, str, str, str, bool], ...] = (
+    ("width", "side", "narrowness", "d/W", False), ("inertia", "rate", "inertia", "inertial number", True),
+    ("overlap", "k1", "overlap", "overlap δ/d (strain × k1, modulus ÷ k1)", False))
 
 
 def _save(figure: plt.Figure, path: Path) -> None:
@@ -31,11 +32,12 @@ def _save(figure: plt.Figure, path: Path) -> None:
 def limits(runs: pd.DataFrame, path: Path) -> None:
     """Each quantity over its value at the smallest number, in %, over d/W, I and the overlap."""
     figure, axes = plt.subplots(1, len(LIMITS), figsize=(13.0, 4.2), constrained_layout=True)
-    for axis, (group, number, label, logarithmic) in zip(axes, LIMITS):
+    for axis, (group, variable, number, label, logarithmic) in zip(axes, LIMITS):
         some = runs[runs["group"] == group]
-        key = some[number].round(6) if number != "overlap" else some["k1"]
+        if variable == "k1":  # strain goes with 1/k1 and modulus with k1, whatever the overlap
+            some = some.assign(strain=some["strain"] * some["k1"], bulk_modulus=some["bulk_modulus"] / some["k1"])
         for colour, (quantity, name) in zip(COLOURS, LABELS.items()):
-            means = some.groupby(key)[[number, quantity]].agg(["mean", "sem"]).dropna()
+            means = some.groupby(variable)[[number, quantity]].agg(["mean", "sem"]).fillna(0.0)
             if means.empty:
                 continue
             means = means.sort_values((number, "mean"))

@@ -327,6 +327,14 @@ class Evidence(unittest.TestCase):
         self.assertAlmostEqual(found.low, math.expm1(-0.15 - stats.t.ppf(0.95, 1) * spread))
         self.assertEqual(found.outside, ())
 
+    def test_degrees_of_freedom_are_those_of_the_larger_part(self):
+        other = self.TABLE[:1].assign(number="weight", slope=0.0, error=0.5, family="c")
+        table = pd.concat([self.TABLE, other])
+        found = evidence.predict(table, "q", {"narrowness": (0.0, 0.1), "weight": (0.0, 0.1)})
+        parts = [0.1**2 * (0.49 + 0.25), 0.1**2 * 0.5**2]
+        freedom = sum(parts)**2 / (parts[0]**2 + parts[1]**2)
+        self.assertAlmostEqual(math.log1p(found.high), -0.15 + math.sqrt(sum(parts)) * stats.t.ppf(0.95, freedom))
+
     def test_errors_of_coefficients_are_added(self):
         found = evidence.predict(self.TABLE, "q", {}, of_coefficients=0.1)
         self.assertAlmostEqual(found.high, math.expm1(0.1 * stats.norm.ppf(0.95)))
