@@ -2,7 +2,6 @@
 """coarsen: how coarse may the particles of a simulation be?"""
 from __future__ import annotations
 
-import argparse
 import subprocess
 import sys
 from typing import Optional, Sequence

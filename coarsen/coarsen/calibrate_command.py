@@ -16,7 +16,6 @@ import yaml
 from . import calibrate, measure, workflow
 from .options import add_running
 from .results import PRELOAD, defaults_of
-from .study import read_study
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 SPECIMENS, SHEAR_CELL = EXAMPLES / "scale_collapse", EXAMPLES / "shear_cell"
@@ -141,7 +140,8 @@ class Simulation:
     def _of_specimen(self, folder: Path, load: pd.DataFrame, target: Any, crushed: int) -> float:
         if target.quantity == "strength":
             name = f"state=level_{target.stress:g}" if crushed > 1 else "after"
-            return measure.measure_crushed(folder / name)["strength"]
+            crush, unload = (measure.read_curve(folder / name / file) for file in ("curve.csv", "unload.csv"))
+            return measure.measure_crushed(crush, unload, str(folder / name))["strength"]
         if target.quantity == "strain":
             return float(measure.at_stress(load, target.stress, "strain"))
         return float(load["bulk_porosity"].iloc[0] - measure.at_stress(load, target.stress, "bulk_porosity"))

@@ -142,28 +142,26 @@ def strength(strain: np.ndarray, stress: np.ndarray) -> Dict[str, float]:
     return {"strength": float(values.max()), "strain_at_peak": float(fine[values.argmax()])}
 
 
-def measure_confined(folder: Path, diameter: float, density: float, preload: float) -> Dict[str, float]:
-    """A row of a confined test: see the names in README.md."""
-    samples = read_curve(folder / "curve.csv")
-    load = loading(samples, preload, str(folder))
+def measure_confined(samples: pd.DataFrame, load: pd.DataFrame, diameter: float, density: float,
+                     place: str = "curve") -> Dict[str, float]:
+    """A row of a confined test, from its samples and those of its loading: see the names in README.md."""
     at = COMPARED * load["stress"].max()
     last = samples[samples["stage"].isin(("load", "hold"))].iloc[-1]
     return {"strain": float(at_stress(load, at, "strain")),
             "porosity_before": float(load["bulk_porosity"].iloc[0]),
             **{name: float(at_stress(load, at, column)) for name, column in COLUMNS.items()
                if column in load and name != "strain"},
-            **modulus(samples, str(folder)),
+            **modulus(samples, place),
             "overlap": float(last["mean_overlap"]),
             "inertial_number": inertial_number(load, diameter, density) if "time" in load else np.nan}
 
 
-def measure_crushed(folder: Path) -> Dict[str, float]:
-    """A row of an unconfined test."""
-    samples = read_curve(folder / "curve.csv")
+def measure_crushed(samples: pd.DataFrame, unload: pd.DataFrame, place: str = "curve") -> Dict[str, float]:
+    """A row of an unconfined test, from the samples of its crushing and of the unloading before it."""
     free = samples[samples["stage"] == "free"]
     count = int((samples["stage"] == "crush").sum())
     if len(free) == 0 or count < SMOOTHED[0]:
-        raise BadRun(f"{folder}: {count} samples of crushing, needed are {SMOOTHED[0]}")
+        raise BadRun(f"{place}: {count} samples of crushing, needed are {SMOOTHED[0]}")
     strain, stress = _crushing(samples)
     before = free.iloc[-1]
     return {**strength(strain, stress),
@@ -173,7 +171,7 @@ def measure_crushed(folder: Path) -> Dict[str, float]:
             "largest_strain": float(strain[-1]),
             "porosity_unloaded": float(before["bulk_porosity"]),
             "coordination_unloaded": float(before["coordination"]),
-            "coordination_uncut": float(read_curve(folder / "unload.csv")["coordination"].iloc[-1]),
+            "coordination_uncut": float(unload["coordination"].iloc[-1]),
             "plastic_overlap": float(before["plastic_overlap"])}
 
 

@@ -85,17 +85,18 @@ def _specimen(out: Path, run: str, given: Dict[str, str],
     """What was measured on one specimen, and its curves."""
     diameter, density, packed = (float(given[name]) for name in ("d", "density", "ppack"))
     samples = measure.read_curve(out / run / "curve.csv")
-    load = measure.loading(samples, PRELOAD * packed, run)
+    load = measure.loading(samples, PRELOAD * packed, str(out / run))
     # The platen lags: the last level is not always reached while loading.
     top = min(float(given.get("level", given.get("pmax", "inf")).split()[-1]), load["stress"].max())
     curves = [measure.curve_of(load, top).assign(run=run, branch="load"),
               measure.unloading_of(samples, load).assign(run=run, branch="unload")]
-    measured = measure.measure_confined(out / run, diameter, density, PRELOAD * packed)
+    measured = measure.measure_confined(samples, load, diameter, density, str(out / run))
     for then, row in after.iterrows():
         level = str(row["state"]).replace("level_", "")
-        measured.update({f"{name}_{level}": value for name, value in measure.measure_crushed(out / then).items()})
-        curves.append(measure.crushing_of(measure.read_curve(out / then / "curve.csv"))
-                      .assign(run=run, branch=f"crush_{level}"))
+        crush, unload = (measure.read_curve(out / then / name) for name in ("curve.csv", "unload.csv"))
+        measured.update({f"{name}_{level}": value for name, value in
+                         measure.measure_crushed(crush, unload, str(out / then)).items()})
+        curves.append(measure.crushing_of(crush).assign(run=run, branch=f"crush_{level}"))
     return {**measured, "rained_porosity": _rained(out / run)}, curves
 
 

@@ -21,7 +21,6 @@ def write(runs: pd.DataFrame, curves: pd.DataFrame, out: Path) -> str:
     :param runs: a row a specimen, and their curves, as coarsen makes them
     """
     runs = tables.with_kinds(runs)
-    curves = curves.copy()
     table = tables.with_curve_deviations(tables.means(runs), runs, curves)
     levels = [c[len("strength_"):] for c in runs if c.startswith("strength_")]
     levels.sort(key=float)
@@ -43,7 +42,7 @@ def write(runs: pd.DataFrame, curves: pd.DataFrame, out: Path) -> str:
 def _strength(plain: pd.DataFrame, runs: pd.DataFrame, curves: pd.DataFrame, table: pd.DataFrame,
               levels: List[str], out: Path) -> List[str]:
     last = levels[-1]
-    usual = tables.with_curve_deviations(tables.means(plain), plain, curves)
+    usual = table[table["material"].isin(plain["material"])]
     figures.deviations(usual, last, out / "deviations.png")
     figures.sizes(usual, last, out / "sizes.png")
     figures.speed(usual, out / "speed.png")
