@@ -124,6 +124,7 @@ EEPA_FUNCTION void prefetch_partner(std::ptrdiff_t j, const ParticleArrays &p,
   prefetch_written(forces.f + 3 * j);
   prefetch_written(forces.torque + 3 * j);
 }
+
 /// Pointers to the rows of the neighbour list and of the histories.
 struct NeighborRows {
   const int *ilist, *numneigh;

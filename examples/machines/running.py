@@ -16,6 +16,10 @@ from pathlib import Path
 from typing import Callable, Dict, List, Optional, Sequence
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "coarsen"))
+
+from coarsen.workflow import cores, mpi_settings  # noqa: E402
+
 _MARKER = "done.json"
 _LAST_LINES = 12
 
@@ -90,7 +94,7 @@ class Launcher:
         for path in _infiles(run):
             shutil.copyfile(path, folder / path.name)
         begin = time.monotonic()
-        done = subprocess.run(self.command(run), env={**os.environ, **_mpi_settings(),
+        done = subprocess.run(self.command(run), env={**os.environ, **mpi_settings(),
                                                       "OMP_NUM_THREADS": "1"},
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True)
@@ -123,11 +127,6 @@ def _infiles(run: Run) -> List[Path]:
     return sorted({*run.infile.parent.glob("in.*"), *Path(__file__).resolve().parent.glob("in.*")})
 
 
-def _mpi_settings() -> Dict[str, str]:
-    lines = (ROOT / "scripts" / "mpi.env").read_text(encoding="utf-8").splitlines()
-    return dict(line.split("=", 1) for line in lines if line and not line.startswith("#"))
-
-
 def build_folder() -> Path:
     return Path(os.environ.get("BUILD_DIR") or ROOT / "build")
 
@@ -157,9 +156,7 @@ def launcher(arguments: argparse.Namespace) -> Launcher:
     if not Path(arguments.lmp).is_file():
         raise RunFailed(f"there is no {arguments.lmp}: build it first, or name another with --lmp")
     if arguments.jobs is None:
-        cores = (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity")
-                 else os.cpu_count() or 1)
-        arguments.jobs = max(1, cores // arguments.ranks)
+        arguments.jobs = max(1, cores() // arguments.ranks)
     out = Path(arguments.out).resolve()
     out.mkdir(parents=True, exist_ok=True)
     return Launcher(Path(arguments.lmp).resolve(), out, arguments.ranks)

@@ -12,7 +12,9 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first: there m
 import numpy as np  # noqa: E402
 import pandas as pd  # noqa: E402
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+from analysis import figures  # noqa: E402
+
+COLOURS = figures.COLOURS[1:]  # without black
 LABELS = {"strain": "strain", "porosity_before": "porosity before loading", "porosity": "porosity",
           "coordination": "coordination number", "bulk_modulus": "bulk modulus", "strength": "strength"}
 #: Group of the runs, its variable, the number that it varies, how that is called, and whether its axis is
