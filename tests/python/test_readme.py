@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
-IN_FILE = ROOT / "examples" / "quick_start" / "in.compress"
+IN_FILE = ROOT / "examples" / "quick_start" / "in.first"
 LMP = os.environ.get("EEPA_LMP")
 
 
