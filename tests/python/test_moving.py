@@ -35,6 +35,14 @@ M_EFFECTIVE = M1 * M2 / (M1 + M2)
 # ---------------------------------------------------------------------- what the other codes compute
 
 
+def epsd(k1, mu_r, damping):
+    """LIGGGHTS's rolling_friction epsd: torque over angle, torque over angular velocity (src/rolling_model_epsd.h)."""
+    stiffness = 2.25 * k1 * (mu_r * R_EFFECTIVE) ** 2
+    first, second = M1 * R1 ** 2, M2 * R2 ** 2
+    inertia = 1.4 * first * second / (first + second)
+    return stiffness, 2.0 * damping * math.sqrt(inertia * stiffness)
+
+
 def log_damping(stiffness, mass, restitution):
     """LIGGGHTS: gamman of edinburgh, edinburgh/stiff and luding."""
     return math.sqrt(4.0 * mass * stiffness / (1.0 + (math.pi / math.log(restitution)) ** 2))
@@ -186,7 +194,8 @@ def numbers(law):
     line = next(l for l in law_lines(law) if l.startswith("pair_coeff"))
     words = line.split()[3:]
     found = dict(zip(("k1", "k2", "k_adh", "f0", "mu"), map(float, words[:5])))
-    for keyword, *names in (("depth", "depth"), ("kt", "kt"), ("restitution", "e"), ("viscous", "Bn", "Bt")):
+    for keyword, *names in (("depth", "depth"), ("kt", "kt"), ("restitution", "e"), ("viscous", "Bn", "Bt"),
+                            ("sds", "kr", "gr", "mu_r")):
         if keyword in words:
             at = words.index(keyword)
             found.update(zip(names, map(float, words[at + 1:])))
@@ -284,6 +293,16 @@ class Conversion(unittest.TestCase):
     def test_liggghts_luding(self):
         damping = log_damping(5e3, M_EFFECTIVE, 0.5)
         self.close("liggghts_luding", Bn=damping, Bt=damping, kt=0.2 * 5e3)
+
+    def test_liggghts_epsd(self):
+        stiffness, damping = epsd(5e3, 0.1, 0.05)
+        self.close("liggghts_epsd", kr=stiffness / R_EFFECTIVE ** 2, gr=damping / R_EFFECTIVE ** 2, mu_r=0.1)
+
+    def test_mercury_dashpot(self):
+        """setRestitutionCoefficient(e, 2 m*) is our restitution e."""
+        mass, e = 2.0 * M_EFFECTIVE, 0.5
+        theirs = -math.sqrt(2.0 * mass * 5e3 / (math.pi ** 2 + math.log(e) ** 2)) * math.log(e)
+        self.assertAlmostEqual(theirs, log_damping(5e3, M_EFFECTIVE, e), places=12)
 
     def test_eepa_hertz(self):
         shear, poisson, ratio = 1e7, 0.25, 0.5
@@ -420,6 +439,36 @@ class LudingLaws(unittest.TestCase):
     def test_yade_example(self):
         self.follow("yade_example", lambda: Yade(105.0, 525.0, 105.0, 0.124, 0.1), damping=0.0, radii=(0.2, 0.2),
                     unit=0.02)
+
+
+@unittest.skipUnless(LMP, "EEPA_LMP names no LAMMPS")
+class Rolling(unittest.TestCase):
+    OMEGA, NORMAL = 1000.0, 5e3 * UNIT
+
+    def roll(self, law):
+        with tempfile.TemporaryDirectory() as folder:
+            lammps("in.rolling", law=law, out=folder, omega=self.OMEGA)
+            rows = np.genfromtxt(Path(folder) / f"rolling_{law}.csv", delimiter=",", names=True)
+        return rows["time"], np.abs(rows["torque"])
+
+    def test_mercury(self):
+        # a pseudo-force of 2 R* times the spin, at the arm 2 R*, at most mu |f_n|
+        time, torque = self.roll("mercury_rolling")
+        arm = 2.0 * R_EFFECTIVE
+        rolled = arm * self.OMEGA
+        theirs = arm * np.minimum(50.0 * rolled * time + 1e-3 * rolled, 0.05 * self.NORMAL)
+        self.assertLess(np.max(np.abs(torque - theirs)), 1e-9 * np.max(theirs))
+        self.assertLess(torque[5], 0.5 * torque[-1])
+
+    def test_liggghts_epsd(self):
+        time, torque = self.roll("liggghts_epsd")
+        stiffness, damping = epsd(5e3, 0.1, 0.05)
+        spring = stiffness * self.OMEGA * time
+        bound = 0.1 * self.NORMAL * R_EFFECTIVE
+        sticking = spring + damping * self.OMEGA < bound
+        self.assertGreater(np.sum(sticking), 100)
+        self.assertLess(np.max(np.abs(torque - spring - damping * self.OMEGA)[sticking]), 1e-6 * bound)
+        self.assertAlmostEqual(torque[-1], bound, delta=1e-9 * bound)
 
 
 @unittest.skipUnless(LMP, "EEPA_LMP names no LAMMPS")

@@ -19,7 +19,8 @@ SPEC = importlib.util.spec_from_file_location("make_notebook", EXAMPLE / "make_n
 make_notebook = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(make_notebook)
 BUILD = os.environ.get("EEPA_BUILD_DIR", "")
-HAS_PLUGIN = BUILD and (Path(BUILD) / "eepaplugin.so").is_file() and (Path(BUILD) / "lmp").is_file()
+# an instrumented plugin does not load into this Python
+HAS_PLUGIN = BUILD and not os.environ.get("EEPA_SANITIZE") and (Path(BUILD) / "eepaplugin.so").is_file() and (Path(BUILD) / "lmp").is_file()
 
 
 def run(folder, *command, **settings):
