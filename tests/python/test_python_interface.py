@@ -20,7 +20,8 @@ make_notebook = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(make_notebook)
 BUILD = os.environ.get("EEPA_BUILD_DIR", "")
 # an instrumented plugin does not load into this Python
-HAS_PLUGIN = BUILD and not os.environ.get("EEPA_SANITIZE") and (Path(BUILD) / "eepaplugin.so").is_file() and (Path(BUILD) / "lmp").is_file()
+HAS_PLUGIN = BUILD and not os.environ.get("EEPA_SANITIZE") and all(
+    (Path(BUILD) / name).is_file() for name in ("eepaplugin.so", "lmp"))
 
 
 def run(folder, *command, **settings):
