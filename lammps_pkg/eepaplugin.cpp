@@ -55,7 +55,7 @@ extern "C" void lammpsplugin_init(void *lammps, void *handle, void *register_fun
     plugin.style = style.category;
     plugin.name = style.name;
     plugin.info = style.info;
-    plugin.author = "the eepa developers";
+    plugin.author = "the eepa developers, version " EEPA_VERSION;
     plugin.handle = handle;
     if (style.make_pair)
       plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(style.make_pair);
