@@ -1,6 +1,7 @@
 # Obtains LAMMPS: its source, and a stock shared library built from it.
 #
-#   LAMMPS_SOURCE_DIR      a LAMMPS source tree (the folder with cmake/ and src/); used as it is
+#   LAMMPS_BUILD_DIR       a folder in which LAMMPS was built with CMake; used as it is, nothing is built
+#   LAMMPS_SOURCE_DIR      otherwise: a LAMMPS source tree (the folder with cmake/ and src/); used as it is
 #   EEPA_LAMMPS_RELEASE    otherwise: the release to obtain, 4Feb2025 (default) or 4Jul2026
 #   EEPA_CACHE_DIR         where source and library are kept: $EEPA_CACHE,
 #                          else $XDG_CACHE_HOME/eepa, else $HOME/.cache/eepa
@@ -13,7 +14,8 @@
 # Defines
 #   LAMMPS::headers        include folders (as system ones: -Werror is for this project's code) and
 #                          the very definitions that LAMMPS was compiled with; MPI and OpenMP
-#   LAMMPS::lammps         the same and the shared library
+#   LAMMPS::lammps         the same and the shared library; not for a LAMMPS_BUILD_DIR without one
+#   EEPA_LAMMPS_OPENMP     whether LAMMPS was compiled with OpenMP
 #   EEPA_LAMMPS_EXECUTABLE the stock lmp of the same build
 #   EEPA_LAMMPS_SOURCE     the source tree in use
 #   EEPA_LAMMPS_DATE       its version as a number, such as 20250204; also a definition of LAMMPS::headers
@@ -35,6 +37,7 @@ elseif(DEFINED ENV{HOME} AND NOT "$ENV{HOME}" STREQUAL "")
 else()
   set(_eepa_cache "${CMAKE_BINARY_DIR}/cache")
 endif()
+set(LAMMPS_BUILD_DIR "" CACHE PATH "Folder in which a LAMMPS of yours was built; empty: build one")
 set(LAMMPS_SOURCE_DIR "" CACHE PATH "LAMMPS source tree to use; empty: obtain one")
 set(EEPA_CACHE_DIR "${_eepa_cache}" CACHE PATH "Keeps the LAMMPS source and library")
 set(EEPA_LAMMPS_RELEASE "4Feb2025" CACHE STRING "LAMMPS release to obtain")
@@ -224,6 +227,143 @@ macro(_eepa_lock path)
   endif()
 endmacro()
 
+# Version of the LAMMPS source tree: as a number such as 20250204, and in words.
+function(_eepa_read_version source date_variable version_variable)
+  file(STRINGS "${source}/src/version.h" version REGEX "LAMMPS_VERSION")
+  if(NOT version MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9][0-9][0-9][0-9])\"")
+    message(FATAL_ERROR "${source}/src/version.h names no version of the form \"4 Feb 2025\": ${version}")
+  endif()
+  set(day ${CMAKE_MATCH_1})
+  set(year ${CMAKE_MATCH_3})
+  set(version "${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${CMAKE_MATCH_3}")
+  list(FIND _eepa_months ${CMAKE_MATCH_2} month)
+  math(EXPR date "${year} * 10000 + (${month} + 1) * 100 + ${day}")
+  if(date LESS 20250204)
+    message(FATAL_ERROR "LAMMPS ${version} in ${source} is too old: 4 Feb 2025 is the oldest that will do")
+  endif()
+  set(${date_variable} ${date} PARENT_SCOPE)
+  set(${version_variable} "${version}" PARENT_SCOPE)
+endfunction()
+
+# The command that compiled LAMMPS's main class, as a list; empty if compile_commands.json has none.
+function(_eepa_read_command build variable)
+  file(STRINGS "${build}/compile_commands.json" command REGEX "\"command\": .*/src/lammps\\.cpp\"")
+  string(REGEX REPLACE "^.*\"command\": \"(.*)\",?$" "\\1" command "${command}")
+  string(REGEX REPLACE "\\\\(.)" "\\1" command "${command}")
+  separate_arguments(command UNIX_COMMAND "${command}")
+  set(${variable} "${command}" PARENT_SCOPE)
+endfunction()
+
+# Defines LAMMPS::headers by that command. The exported target of LAMMPS does not have all definitions: LAMMPS
+# keeps most of them private.
+function(_eepa_define_headers command date)
+  set(definitions "")
+  set(includes "")
+  set(previous "")
+  foreach(argument IN LISTS command)
+    if(previous STREQUAL "-isystem" OR previous STREQUAL "-I")
+      list(APPEND includes "${argument}")
+    elseif(argument MATCHES "^-I(.+)")
+      list(APPEND includes "${CMAKE_MATCH_1}")
+    elseif(argument MATCHES "^-D(.+)" AND NOT argument STREQUAL "-Dlammps_EXPORTS")
+      list(APPEND definitions "${CMAKE_MATCH_1}")
+    endif()
+    set(previous "${argument}")
+  endforeach()
+  # A compiler passes over folders that are not there, and CMake does not.
+  foreach(folder IN LISTS includes)
+    if(NOT IS_DIRECTORY "${folder}")
+      list(REMOVE_ITEM includes "${folder}")
+    endif()
+  endforeach()
+  add_library(LAMMPS::headers INTERFACE IMPORTED GLOBAL)
+  target_include_directories(LAMMPS::headers SYSTEM INTERFACE ${includes})
+  target_compile_definitions(LAMMPS::headers INTERFACE ${definitions} EEPA_LAMMPS_DATE=${date})
+endfunction()
+
+# Takes LAMMPS_BUILD_DIR as it is: nothing in it is changed or built.
+function(_eepa_take_lammps)
+  set(given "LAMMPS_BUILD_DIR=${LAMMPS_BUILD_DIR}")
+  get_filename_component(build "${LAMMPS_BUILD_DIR}" ABSOLUTE BASE_DIR "${CMAKE_SOURCE_DIR}")
+  if(LAMMPS_SOURCE_DIR)
+    message(FATAL_ERROR "${given} and LAMMPS_SOURCE_DIR=${LAMMPS_SOURCE_DIR} are both given: the folder of a "
+      "build knows its source, so give one of them")
+  elseif(NOT IS_DIRECTORY "${build}")
+    message(FATAL_ERROR "${given}: there is no such folder")
+  elseif(NOT EXISTS "${build}/compile_commands.json")
+    if(EXISTS "${build}/CMakeCache.txt")
+      message(FATAL_ERROR "${given} has no compile_commands.json, which says how LAMMPS was compiled. This "
+        "writes it, and compiles nothing anew:\n  cmake -D CMAKE_EXPORT_COMPILE_COMMANDS=on ${build}")
+    endif()
+    message(FATAL_ERROR "${given} is no folder in which LAMMPS was built with CMake: it has neither "
+      "compile_commands.json nor CMakeCache.txt")
+  endif()
+  _eepa_read_command("${build}" command)
+  if(NOT command)
+    message(FATAL_ERROR "${given} is no folder in which LAMMPS was built with CMake: its compile_commands.json "
+      "says nothing about src/lammps.cpp")
+  endif()
+  list(GET command 0 compiler)
+  if(compiler MATCHES "(^|/)(s?ccache|distcc)$")
+    list(GET command 1 compiler)
+  endif()
+  list(GET command -1 file)
+  get_filename_component(source "${file}" ABSOLUTE BASE_DIR "${build}")
+  get_filename_component(source "${source}" DIRECTORY)
+  get_filename_component(source "${source}" DIRECTORY)
+  if(NOT EXISTS "${source}/src/version.h")
+    message(FATAL_ERROR "${given} was built from ${source}, where there is no src/version.h any more: the "
+      "plugin needs that source")
+  endif()
+  _eepa_read_version("${source}" date version)
+  if(NOT "-DLMP_PLUGIN" IN_LIST command)
+    message(FATAL_ERROR "${given}: this LAMMPS ${version} has no PLUGIN package and can load no plugin. Build it "
+      "with\n  cmake -D PKG_PLUGIN=on ${build}")
+  endif()
+  get_filename_component(compiler "${compiler}" REALPATH)
+  get_filename_component(own "${CMAKE_CXX_COMPILER}" REALPATH)
+  if(NOT compiler STREQUAL own)
+    message(WARNING "${given} was compiled by ${compiler}, and the plugin will be by ${own}. Give the former with "
+      "-D CMAKE_CXX_COMPILER, unless you know that both agree on the layout of classes")
+  endif()
+  _eepa_define_headers("${command}" ${date})
+
+  # OpenMP changes the layout of classes of LAMMPS (my_page.h), and its serial mpi.h is no MPI.
+  set(openmp OFF)
+  if(command MATCHES "(^|;)-[a-z]*openmp(;|=|$)")
+    set(openmp ON)
+    find_package(OpenMP REQUIRED COMPONENTS CXX)
+    target_link_libraries(LAMMPS::headers INTERFACE OpenMP::OpenMP_CXX)
+  endif()
+  set(mpi ON)
+  if(command MATCHES "/src/STUBS(;|$)")
+    set(mpi OFF)
+  else()
+    find_package(MPI REQUIRED COMPONENTS CXX)
+    target_link_libraries(LAMMPS::headers INTERFACE MPI::MPI_CXX)
+  endif()
+
+  set(machine "")
+  if(EXISTS "${build}/CMakeCache.txt")
+    file(STRINGS "${build}/CMakeCache.txt" machine REGEX "^LAMMPS_MACHINE:[^=]*=.+")
+    string(REGEX REPLACE "^[^=]*=" "_" machine "${machine}")
+  endif()
+  set(library "${build}/liblammps${machine}${CMAKE_SHARED_LIBRARY_SUFFIX}")
+  if(mpi AND EXISTS "${library}")
+    add_library(LAMMPS::lammps SHARED IMPORTED GLOBAL)
+    set_target_properties(LAMMPS::lammps PROPERTIES IMPORTED_LOCATION "${library}")
+    target_link_libraries(LAMMPS::lammps INTERFACE LAMMPS::headers)
+    message(STATUS "LAMMPS ${version}: ${library}")
+  else()
+    message(STATUS "LAMMPS ${version} in ${build} has no shared library with MPI: the plugin is built, and neither "
+      "lmp nor the tests")
+  endif()
+  set(EEPA_LAMMPS_DATE ${date} PARENT_SCOPE)
+  set(EEPA_LAMMPS_EXECUTABLE "${build}/lmp${machine}" PARENT_SCOPE)
+  set(EEPA_LAMMPS_OPENMP ${openmp} PARENT_SCOPE)
+  set(EEPA_LAMMPS_SOURCE "${source}" PARENT_SCOPE)
+endfunction()
+
 function(_eepa_obtain_lammps)
   if(EEPA_LAMMPS_RELEASE AND NOT DEFINED _eepa_debian_${EEPA_LAMMPS_RELEASE})
     message(FATAL_ERROR
@@ -250,18 +390,7 @@ function(_eepa_obtain_lammps)
     set(name ${EEPA_LAMMPS_RELEASE})
   endif()
 
-  file(STRINGS "${source}/src/version.h" version REGEX "LAMMPS_VERSION")
-  if(NOT version MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9][0-9][0-9][0-9])\"")
-    message(FATAL_ERROR "${source}/src/version.h names no version of the form \"4 Feb 2025\": ${version}")
-  endif()
-  set(day ${CMAKE_MATCH_1})
-  set(year ${CMAKE_MATCH_3})
-  set(version "${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${CMAKE_MATCH_3}")
-  list(FIND _eepa_months ${CMAKE_MATCH_2} month)
-  math(EXPR date "${year} * 10000 + (${month} + 1) * 100 + ${day}")
-  if(date LESS 20250204)
-    message(FATAL_ERROR "LAMMPS ${version} in ${source} is too old: 4 Feb 2025 is the oldest that will do")
-  endif()
+  _eepa_read_version("${source}" date version)
 
   # The key has everything that could make a library differ, so that configurations never share one by mistake.
   string(SHA256 key "${source}|${version}|${CMAKE_CXX_COMPILER}|${CMAKE_CXX_COMPILER_ID}|\
@@ -286,33 +415,12 @@ ${EEPA_LAMMPS_ARGS}|${_eepa_flags}|${_eepa_machine}|$ENV{LDFLAGS}|recipe 2")
   endif()
   message(STATUS "LAMMPS ${version}: ${library}")
 
-  # Definitions are taken from the command that compiled LAMMPS's main class. The exported target does not
-  # have them all: LAMMPS keeps most of its definitions private.
-  file(STRINGS "${build}/compile_commands.json" command REGEX "\"command\": .*/src/lammps\\.cpp\"")
+  _eepa_read_command("${build}" command)
   if(NOT command)
     message(FATAL_ERROR "${build}/compile_commands.json says nothing about lammps.cpp; "
       "delete ${build} to build it again")
   endif()
-  string(REGEX REPLACE "^.*\"command\": \"(.*)\",?$" "\\1" command "${command}")
-  string(REGEX REPLACE "\\\\(.)" "\\1" command "${command}")
-  separate_arguments(command UNIX_COMMAND "${command}")
-  set(definitions "")
-  set(includes "")
-  set(previous "")
-  foreach(argument IN LISTS command)
-    if(previous STREQUAL "-isystem")
-      list(APPEND includes "${argument}")
-    elseif(argument MATCHES "^-I(.+)")
-      list(APPEND includes "${CMAKE_MATCH_1}")
-    elseif(argument MATCHES "^-D(.+)" AND NOT argument STREQUAL "-Dlammps_EXPORTS")
-      list(APPEND definitions "${CMAKE_MATCH_1}")
-    endif()
-    set(previous "${argument}")
-  endforeach()
-
-  add_library(LAMMPS::headers INTERFACE IMPORTED GLOBAL)
-  target_include_directories(LAMMPS::headers SYSTEM INTERFACE ${includes})
-  target_compile_definitions(LAMMPS::headers INTERFACE ${definitions} EEPA_LAMMPS_DATE=${date})
+  _eepa_define_headers("${command}" ${date})
   target_link_libraries(LAMMPS::headers INTERFACE MPI::MPI_CXX OpenMP::OpenMP_CXX)
   add_library(LAMMPS::lammps SHARED IMPORTED GLOBAL)
   set_target_properties(LAMMPS::lammps PROPERTIES IMPORTED_LOCATION "${library}")
@@ -320,6 +428,7 @@ ${EEPA_LAMMPS_ARGS}|${_eepa_flags}|${_eepa_machine}|$ENV{LDFLAGS}|recipe 2")
 
   set(EEPA_LAMMPS_DATE ${date} PARENT_SCOPE)
   set(EEPA_LAMMPS_EXECUTABLE "${build}/lmp" PARENT_SCOPE)
+  set(EEPA_LAMMPS_OPENMP ON PARENT_SCOPE)
   set(EEPA_LAMMPS_SOURCE "${source}" PARENT_SCOPE)
 endfunction()
 
@@ -327,8 +436,12 @@ set(_eepa_months Jan Feb Mar Apr May Jun Jul Aug Sep Oct Nov Dec)
 
 # Without Open MPI's old C++ interface, whose symbols every program that loads the plugin would need.
 set(MPI_CXX_SKIP_MPICXX TRUE)
-find_package(MPI REQUIRED COMPONENTS CXX)
-find_package(OpenMP REQUIRED COMPONENTS CXX)
-find_package(PNG QUIET)
-_eepa_find_vtk(_eepa_vtk)
-_eepa_obtain_lammps()
+if(LAMMPS_BUILD_DIR)
+  _eepa_take_lammps()
+else()
+  find_package(MPI REQUIRED COMPONENTS CXX)
+  find_package(OpenMP REQUIRED COMPONENTS CXX)
+  find_package(PNG QUIET)
+  _eepa_find_vtk(_eepa_vtk)
+  _eepa_obtain_lammps()
+endif()

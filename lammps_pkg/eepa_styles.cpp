@@ -53,12 +53,23 @@ const std::vector<EepaStyle> &LAMMPS_NS::eepa_styles()
   return styles;
 }
 
+void LAMMPS_NS::register_eepa_style(LAMMPS *lmp, const EepaStyle &style)
+{
+  const std::string name = style.name;
+  if (style.make_pair) (*lmp->force->pair_map)[name] = style.make_pair;
+  if (style.make_fix) (*lmp->modify->fix_map)[name] = style.make_fix;
+  if (style.make_compute) (*lmp->modify->compute_map)[name] = style.make_compute;
+}
+
+bool LAMMPS_NS::has_eepa_style(const LAMMPS *lmp, const EepaStyle &style)
+{
+  const std::string name = style.name;
+  if (style.make_pair) return lmp->force->pair_map->count(name) > 0;
+  if (style.make_fix) return lmp->modify->fix_map->count(name) > 0;
+  return lmp->modify->compute_map->count(name) > 0;
+}
+
 void LAMMPS_NS::register_eepa_styles(LAMMPS *lmp)
 {
-  for (const auto &style : eepa_styles()) {
-    const std::string name = style.name;
-    if (style.make_pair) (*lmp->force->pair_map)[name] = style.make_pair;
-    if (style.make_fix) (*lmp->modify->fix_map)[name] = style.make_fix;
-    if (style.make_compute) (*lmp->modify->compute_map)[name] = style.make_compute;
-  }
+  for (const auto &style : eepa_styles()) register_eepa_style(lmp, style);
 }

@@ -24,7 +24,13 @@ struct EepaStyle {
 
 const std::vector<EepaStyle> &eepa_styles();
 
-/// Registers the styles in one instance of the LAMMPS that this code is linked with.
+/// Enters a style in the lists of one instance of LAMMPS.
+void register_eepa_style(LAMMPS *lmp, const EepaStyle &style);
+
+/// Whether the lists of an instance have a style of this name, whoever entered it.
+bool has_eepa_style(const LAMMPS *lmp, const EepaStyle &style);
+
+/// Enters all of them.
 void register_eepa_styles(LAMMPS *lmp);
 
 }    // namespace LAMMPS_NS

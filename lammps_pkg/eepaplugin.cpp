@@ -9,6 +9,7 @@
 #include "lammpsplugin.h"
 #include "library.h"
 #include "lmptype.h"
+#include "plugin.h"
 #include "utils.h"
 #include "version.h"
 
@@ -42,8 +43,17 @@ void require_same_lammps(LAMMPS *lmp)
         lammps_extract_setting(lmp, "bigint"), lammps_extract_setting(lmp, "imageint"));
 }
 
+// LAMMPS has one list of plugins for all its instances in a process, and does not enter a style that is
+// in it a second time, not even in the lists of styles of another instance.
+bool registered_from_here(const EepaStyle &style, void *handle)
+{
+  const int index = plugin_find(style.category, style.name);
+  return index >= 0 && plugin_get_info(index)->handle == handle;
+}
+
 }    // namespace
 
+// LAMMPS calls this for each of its instances, since each opens the library.
 extern "C" void lammpsplugin_init(void *lammps, void *handle, void *register_function)
 {
   auto *lmp = static_cast<LAMMPS *>(lammps);
@@ -55,7 +65,7 @@ extern "C" void lammpsplugin_init(void *lammps, void *handle, void *register_fun
     plugin.style = style.category;
     plugin.name = style.name;
     plugin.info = style.info;
-    plugin.author = "the eepa developers";
+    plugin.author = "the eepa developers, version " EEPA_VERSION;
     plugin.handle = handle;
     if (style.make_pair)
       plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(style.make_pair);
@@ -63,6 +73,9 @@ extern "C" void lammpsplugin_init(void *lammps, void *handle, void *register_fun
       plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(style.make_fix);
     else
       plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(style.make_compute);
-    (*register_plugin)(&plugin, lmp);
+    const bool registered = registered_from_here(style, handle);
+    if (!registered) (*register_plugin)(&plugin, lmp);
+    // The second: LAMMPS has it from a copy of this library in another file.
+    if (registered || !has_eepa_style(lmp, style)) register_eepa_style(lmp, style);
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
-// build/lmp: LAMMPS that loads the plugin beside this program. LAMMPS loads it from
-// LAMMPS_PLUGIN_PATH at every start, also after the command `clear`.
+// build/lmp, installed as lmp-eepa: LAMMPS that loads the plugin of this build or installation. LAMMPS loads
+// it from LAMMPS_PLUGIN_PATH at every start, also after the command `clear`.
 
 #include "exceptions.h"
 #include "input.h"
@@ -19,17 +19,22 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// Puts this program's folder in front of LAMMPS_PLUGIN_PATH.
-/// \return false, with a message, where the plugin is not there
+/// Puts the plugin's folder in front of LAMMPS_PLUGIN_PATH: that of this program in a build folder, and in
+/// an installation EEPA_PLUGIN_FOLDER, which is relative to this program so that a prefix may be moved.
+/// \return false, with a message, where the plugin is in neither
 bool add_own_folder_to_plugin_path(const char *program)
 {
   std::error_code failed;
   std::filesystem::path self = std::filesystem::canonical("/proc/self/exe", failed);
   if (failed) self = std::filesystem::absolute(program, failed);    // no procfs
-  const std::filesystem::path folder = self.parent_path();
+  std::filesystem::path folder = self.parent_path();
   if (!std::filesystem::exists(folder / "eepaplugin.so", failed)) {
-    std::fprintf(stderr, "ERROR: eepaplugin.so must lie beside %s\n", self.c_str());
-    return false;
+    const std::filesystem::path installed = (folder / EEPA_PLUGIN_FOLDER).lexically_normal();
+    if (!std::filesystem::exists(installed / "eepaplugin.so", failed)) {
+      std::fprintf(stderr, "ERROR: eepaplugin.so must lie beside %s or in %s\n", self.c_str(), installed.c_str());
+      return false;
+    }
+    folder = installed;
   }
   std::string path = folder.string();
   if (const char *given = std::getenv("LAMMPS_PLUGIN_PATH")) path += std::string(":") + given;

@@ -2,13 +2,24 @@
 # From a bare machine to a built project: installs what is missing (Debian, Ubuntu),
 # obtains and builds LAMMPS once, configures and builds. Safe to run again.
 #
-#   scripts/setup.sh [more arguments for cmake, such as -D EEPA_ARCH=native]
+#   scripts/setup.sh [--yes] [more arguments for cmake, such as -D EEPA_ARCH=native]
+#
+# On a terminal it asks before it installs packages, unless --yes is the first argument or the environment has
+# CI. Where nobody can answer it installs them, as its caller wants a built project.
 #
 # BUILD_DIR names another build folder; EEPA_CACHE another place for LAMMPS.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${BUILD_DIR:-$root/build}
+ask=no
+if [ -t 0 ]; then
+    case ${CI:-} in '' | 0 | false | no) ask=yes ;; esac
+fi
+if [ "${1:-}" = --yes ]; then
+    ask=no
+    shift
+fi
 
 packages=(cmake ninja-build g++ libopenmpi-dev openmpi-bin libeigen3-dev libgtest-dev
     libbenchmark-dev libpng-dev python3 python3-numpy python3-scipy
@@ -27,6 +38,18 @@ if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then
         installed "$package" || missing+=("$package")
     done
     if [ ${#missing[@]} -gt 0 ]; then
+        if [ $ask = yes ]; then
+            echo "These packages are missing and will be installed with apt-get: ${missing[*]}"
+            read -r -p "Go on? [Y/n] " answer || answer=n
+            case $answer in
+                '' | [Yy] | [Yy]es) ;;
+                *)
+                    echo "Nothing was installed. To install them yourself:" >&2
+                    echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+                    exit 1
+                    ;;
+            esac
+        fi
         echo "Installing ${missing[*]}"
         as_root=()
         if [ "$(id -u)" -ne 0 ]; then

@@ -18,12 +18,16 @@ class NotInstalled(RuntimeError):
 
 
 def find_lmp(given: Union[None, str, Path]) -> Path:
-    """LAMMPS with this package: the one named, or that of the build folder, or lmp on the path.
+    """LAMMPS with this package: the one named, or that of the build folder or of the installation, or lmp-eepa or
+    lmp on the path.
 
     :raise NotInstalled: with every place where it was sought
     """
     root = Path(__file__).resolve().parents[2]
-    places = [str(given)] if given else [str(Path(os.environ.get("BUILD_DIR") or root / "build") / "lmp"), "lmp"]
+    # An installation has the folders of the source in share/eepa, and programs in bin.
+    own = root / "build" / "lmp" if (root / "CMakeLists.txt").is_file() else root.parents[1] / "bin" / "lmp-eepa"
+    build = os.environ.get("BUILD_DIR")
+    places = [str(given)] if given else [str(Path(build) / "lmp" if build else own), "lmp-eepa", "lmp"]
     for place in places:
         found = shutil.which(place)
         if found:

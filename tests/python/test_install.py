@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""cmake --install into a prefix that is then moved: what is installed runs from there. And the version, which
+stands in one place, and CITATION.cff."""
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("EEPA_BUILD_DIR") or ROOT / "build")
+STOCK = os.environ.get("EEPA_STOCK_LMP") or ""
+VERSION = (ROOT / "VERSION").read_text().strip()
+
+#: Two particles meet and part with sqrt(k1/k2) of their speed.
+IMPACT = """units si
+atom_style sphere
+atom_modify map array
+boundary f f f
+region box block -2 2 -2 2 -2 2
+create_box 1 box
+comm_modify vel yes
+create_atoms 1 single -0.505 0 0
+create_atoms 1 single 0.505 0 0
+set group all diameter 1 density 1.9098593171027440
+set atom 1 vx 1
+pair_style gran/eepa linear
+pair_coeff 1 1 1e4 4e4 0 0 0
+fix integrate all nve/sphere
+timestep 1e-5
+run 8000
+variable e equal vx[2]-vx[1]
+print "restitution $(v_e:%.3f)"
+clear
+atom_style sphere
+pair_style gran/eepa linear
+"""
+
+CONSUMER = {
+    "CMakeLists.txt": """cmake_minimum_required(VERSION 3.20)
+project(consumer LANGUAGES CXX)
+find_package(eepa 1.0 REQUIRED)
+add_executable(consumer main.cpp)
+target_link_libraries(consumer PRIVATE eepa::kernel)
+file(WRITE "${CMAKE_BINARY_DIR}/version" "${eepa_VERSION}")
+""",
+    "main.cpp": """#include <eepa/time_step.h>
+#include <cstdio>
+int main() { std::printf("%.6f\\n", eepa::largest_time_step(4.0, 1.0)); }
+""",
+}
+
+
+def cached(name):
+    found = re.search(rf"^{name}:[^=]*=(.*)$", (BUILD / "CMakeCache.txt").read_text(), re.MULTILINE)
+    return found.group(1) if found else ""
+
+
+def clean_environment(**more):
+    """Of a user who knows nothing of this build folder."""
+    forgotten = ("BUILD_DIR", "LAMMPS_PLUGIN_PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "MAKEFLAGS", "DESTDIR")
+    kept = {name: value for name, value in os.environ.items()
+            if name not in forgotten and not name.startswith("EEPA_")}
+    return {**kept, **more}
+
+
+def call(*words, cwd=None, **environment):
+    """Status and output."""
+    done = subprocess.run([str(word) for word in words], text=True, cwd=cwd, env=clean_environment(**environment),
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
+    return done.returncode, done.stdout
+
+
+def cmake():
+    return cached("CMAKE_COMMAND") or "cmake"
+
+
+@unittest.skipUnless((BUILD / "CMakeCache.txt").is_file(), "started by hand: EEPA_BUILD_DIR names the build folder")
+class Install(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name).resolve()
+        status, out = call(cmake(), "--install", BUILD, "--prefix", cls.folder / "first")
+        if status != 0:
+            raise AssertionError(out)
+        cls.prefix = cls.folder / "moved"
+        (cls.folder / "first").rename(cls.prefix)
+        cls.libraries = cls.prefix / cached("CMAKE_INSTALL_LIBDIR")
+        cls.plugins = cls.libraries / "lammps" / "plugins"
+        cls.lmp = cls.prefix / "bin" / "lmp-eepa"
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.work = Path(folder.name)
+        (self.work / "in.impact").write_text(IMPACT)
+
+    def assert_impact(self, result):
+        status, out = result
+        self.assertEqual(status, 0, out)
+        self.assertIn("restitution 0.500", out)
+
+    def needs_own_lammps(self):
+        if cached("LAMMPS_BUILD_DIR") or os.environ.get("EEPA_SANITIZE"):
+            self.skipTest("only for the LAMMPS that this project builds, without sanitizers")
+
+    def test_lmp_runs_and_keeps_the_styles_after_clear(self):
+        self.needs_own_lammps()
+        self.assert_impact(call(self.lmp, "-in", "in.impact", cwd=self.work))
+
+    def test_lmp_runs_on_two_ranks(self):
+        self.needs_own_lammps()
+        mpiexec = os.environ.get("EEPA_MPIEXEC")
+        if not mpiexec:
+            self.skipTest("ctest says where mpiexec is")
+        self.assert_impact(call(mpiexec, "-n", 2, self.lmp, "-in", "in.impact", cwd=self.work))
+
+    def test_lmp_takes_its_own_liblammps(self):
+        self.needs_own_lammps()
+        _, out = call("ldd", self.lmp)
+        found = re.search(r"liblammps\S* => (\S+)", out)
+        self.assertEqual(Path(found.group(1)).resolve().parent, self.libraries / "eepa", out)
+
+    def test_lmp_says_where_the_plugin_must_be(self):
+        self.needs_own_lammps()
+        hidden = self.plugins / "hidden"
+        (self.plugins / "eepaplugin.so").rename(hidden)
+        try:
+            status, out = call(self.lmp, "-in", "in.impact", cwd=self.work)
+        finally:
+            hidden.rename(self.plugins / "eepaplugin.so")
+        self.assertNotEqual(status, 0)
+        self.assertIn(f"eepaplugin.so must lie beside {self.lmp} or in {self.plugins}", out)
+
+    def test_a_stock_lammps_finds_the_plugin(self):
+        if not STOCK or os.environ.get("EEPA_SANITIZE"):
+            self.skipTest("no stock LAMMPS, or a plugin that it can not load")
+        self.assert_impact(call(STOCK, "-in", "in.impact", cwd=self.work, LAMMPS_PLUGIN_PATH=str(self.plugins)))
+
+    def test_folders_for_libraries_are_relative_or_none(self):
+        for file in (self.lmp, self.plugins / "eepaplugin.so", *(self.libraries / "eepa").glob("*")):
+            if not file.exists():
+                continue
+            _, out = call("readelf", "-d", file)
+            for folders in re.findall(r"\((?:RPATH|RUNPATH)\).*\[(.*)\]", out):
+                for folder in folders.split(":"):
+                    # Where MPI is in no folder of the loader's, its folder is named, too.
+                    self.assertTrue(folder.startswith("$ORIGIN/") or "mpi" in folder.lower(),
+                                    f"{file} looks in '{folder}'")
+                    self.assertNotIn(str(BUILD), folder)
+
+    def test_the_plugin_exports_its_entry_and_nothing_else(self):
+        _, out = call("nm", "-D", "--defined-only", self.plugins / "eepaplugin.so")
+        if os.environ.get("EEPA_SANITIZE"):
+            self.skipTest("sanitizers add symbols")
+        self.assertEqual([line.split()[-1] for line in out.splitlines()], ["lammpsplugin_init"])
+
+    def test_coarsen_finds_itself_and_lmp(self):
+        status, out = call(self.prefix / "bin" / "coarsen", "--version", cwd=self.work)
+        self.assertEqual((status, out), (0, f"coarsen of eepa {VERSION}\n"))
+        self.needs_own_lammps()
+        plan = ("plan", "--diameter", "50e-6", "--density", "2700", "--k1", "150", "--k2", "450", "--kadh", "300",
+                "--f0", "-7.5e-7", "--width", "30e-3", "--stress", "5e3", "80e3", "--rate", "0.1", "--want",
+                "strain=10", "--diameters", "1e-3")
+        # A run of seconds, by the lmp-eepa beside it, measures the speed.
+        status, out = call(self.prefix / "bin" / "coarsen", *plan, cwd=self.work)
+        self.assertEqual(status, 0, out)
+        self.assertIn("Cheapest that may be used: 1 mm", out)
+        self.lmp.rename(self.prefix / "bin" / "hidden")
+        try:
+            status, out = call(self.prefix / "bin" / "coarsen", *plan, cwd=self.work, PATH="/usr/bin:/bin")
+        finally:
+            (self.prefix / "bin" / "hidden").rename(self.lmp)
+        self.assertEqual(status, 1, out)
+        self.assertIn(f"no LAMMPS at {self.lmp} or lmp-eepa or lmp", out)
+        # Nothing is written into an installation.
+        self.assertEqual(list((self.prefix / "share").rglob("__pycache__")), [])
+
+    def test_coarsen_has_what_it_reads(self):
+        data = self.prefix / "share" / "eepa"
+        for source in (ROOT / "coarsen" / "coarsen").iterdir():
+            if source.name != "__pycache__":
+                self.assertEqual((data / "coarsen" / "coarsen" / source.name).read_bytes(), source.read_bytes())
+        for name in ("coarsen/README.md", "scripts/mpi.env", "examples/scale_collapse/in.confined"):
+            self.assertTrue((data / name).is_file(), name)
+
+    def test_an_example_runs_from_its_place(self):
+        self.needs_own_lammps()
+        infile = self.prefix / "share" / "eepa" / "examples" / "contact_cycle" / "in.contact_cycle"
+        status, out = call(self.lmp, "-in", infile, cwd=self.work)
+        self.assertEqual(status, 0, out)
+        self.assertTrue((self.work / "cycle_linear.csv").is_file())
+
+    def test_documentation_is_complete(self):
+        folder = self.prefix / "share" / "doc" / "eepa"
+        pages = sorted(page.name for page in (ROOT / "lammps_pkg" / "doc").glob("*.rst"))
+        self.assertEqual(sorted(page.name for page in folder.glob("*.rst")), pages)
+        for page in folder.glob("*.rst"):
+            for figure in re.findall(r"(?:image|figure):: (\S+)", page.read_text()):
+                self.assertTrue((folder / figure).is_file(), f"{page.name}: {figure}")
+        for name in ("LICENSE", "CHANGELOG.md", "CITATION.cff", "README.md", "docs/installing.md"):
+            self.assertTrue((folder / name).is_file(), name)
+
+    def test_a_component_is_installed_alone(self):
+        status, out = call(cmake(), "--install", BUILD, "--prefix", self.work / "alone", "--component", "plugin")
+        self.assertEqual(status, 0, out)
+        files = [path for path in (self.work / "alone").rglob("*") if path.is_file()]
+        self.assertEqual([path.name for path in files], ["eepaplugin.so"])
+
+    def test_find_package_gives_the_kernel(self):
+        for name, text in CONSUMER.items():
+            (self.work / name).write_text(text)
+        out = ""
+        for words in ((cmake(), "-S", ".", "-B", "b", "-G", cached("CMAKE_GENERATOR"), "-D",
+                       f"CMAKE_PREFIX_PATH={self.prefix}", "-D", f"CMAKE_CXX_COMPILER={cached('CMAKE_CXX_COMPILER')}"),
+                      (cmake(), "--build", "b"), ("b/consumer",)):
+            status, out = call(*words, cwd=self.work)
+            self.assertEqual(status, 0, out)
+        self.assertEqual(out, "0.400000\n")
+        self.assertEqual((self.work / "b" / "version").read_text(), VERSION)
+        # It is found in the prefix and not in this source tree.
+        self.assertNotIn(str(ROOT), (self.work / "b" / "CMakeCache.txt").read_text())
+
+
+class Version(unittest.TestCase):
+    def test_stands_in_one_place(self):
+        self.assertRegex(VERSION, r"^\d+\.\d+\.\d+$")
+        changelog = re.findall(r"^## \[(\d\S*)\] - \d{4}-\d\d-\d\d$", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
+        self.assertEqual(changelog[0], VERSION)
+        self.assertEqual(self.citation()["version"], VERSION)
+
+    @staticmethod
+    def citation():
+        return yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+
+    def test_citation_has_what_its_format_asks_for(self):
+        # https://github.com/citation-file-format/citation-file-format/blob/main/schema-guide.md
+        citation = self.citation()
+        self.assertEqual(citation["cff-version"], "1.2.0")
+        for key in ("message", "title", "authors"):
+            self.assertTrue(citation[key], key)
+        self.assertEqual(citation["type"], "software")
+        self.assertEqual([author["name"] for author in citation["authors"]], ["the eepa developers"])
+        for reference in citation["references"]:
+            for key in ("type", "title", "authors"):
+                self.assertTrue(reference[key], key)
+            self.assertTrue(all(set(author) == {"family-names", "given-names"} for author in reference["authors"]))
+
+    def test_citation_has_the_articles_of_the_readme(self):
+        readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+        for reference in self.citation()["references"]:
+            self.assertIn(reference["title"], readme)
+            for author in reference["authors"]:
+                self.assertIn(f"{author['given-names']} {author['family-names']}", readme)
+            if "start" in reference:
+                self.assertIn(f"{reference['journal']} {reference['volume']} ({reference['year']}) "
+                              f"{reference['start']}", readme)
+
+
+if __name__ == "__main__":
+    unittest.main()
