@@ -1,20 +1,26 @@
 # SPDX-License-Identifier: GPL-2.0-only
 """Pages of the repository as pages of the site: what a reader of the files sees and Sphinx does not."""
 
+import os
 import re
 from pathlib import Path
 
 
-def links_to_folders(app, docname, source):
-    """In Markdown a link may name a folder: its page is the README there, or the only page."""
+def links_of_files(app, docname, source):
+    """In Markdown a link may name a folder: its page is the README there, or the only page. The repository's own README
+    is for those who look at files; here its place is taken by the first page."""
     if not app.env.doc2path(docname).endswith(".md"):
         return
     here = Path(app.env.doc2path(docname)).parent
+    root = Path(app.srcdir)
 
-    def page(match):
-        pages = list((here / match[1]).glob("README.md")) or list((here / match[1]).glob("*.md"))
+    def link(match):
+        target = (here / match[1]).resolve()
+        if target == root / "README.md":
+            return f"]({os.path.relpath(root / app.config.root_doc, here)}.rst)"
+        pages = list(target.glob("README.md")) or list(target.glob("*.md"))
         return f"]({match[1].rstrip('/')}/{pages[0].name})" if len(pages) == 1 else match[0]
-    source[0] = re.sub(r"\]\(([\w./-]+)\)", page, source[0])
+    source[0] = re.sub(r"\]\(([\w./-]+)\)", link, source[0])
 
 
 def pages_to_come(app, docname, source):
@@ -40,7 +46,7 @@ def open_at_top(app, error):
 
 
 def setup(app):
-    app.connect("source-read", links_to_folders)
+    app.connect("source-read", links_of_files)
     app.connect("source-read", pages_to_come)
     app.connect("build-finished", open_at_top)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -98,10 +98,10 @@ def scripts(text: str) -> List[str]:
 def run(lmp: str, script: str, folder: Path) -> str:
     """What LAMMPS says against a script; nothing if it runs. A plugin is loaded into LAMMPS as it comes."""
     if "plugin load" in script:
-        if os.environ.get("EEPA_SANITIZE"):
-            return ""    # an instrumented plugin does not load there
-        lmp = os.environ["EEPA_STOCK_LMP"]
-        script = re.sub(r"plugin load \S*eepaplugin\.so", f"plugin load {os.environ['EEPA_PLUGIN']}", script)
+        lmp, plugin = os.environ.get("EEPA_STOCK_LMP"), os.environ.get("EEPA_PLUGIN")
+        if not lmp or not plugin or os.environ.get("EEPA_SANITIZE"):
+            return ""    # there is none, or it is instrumented and does not load there
+        script = re.sub(r"plugin load \S*eepaplugin\.so", f"plugin load {plugin}", script)
     for name in ("lid.stl", "mill.stl"):
         (folder / name).write_text(TRIANGLE, encoding="utf-8")
     (folder / "in.lines").write_text(script, encoding="utf-8")
