@@ -25,6 +25,7 @@ packages=(cmake ninja-build g++ libopenmpi-dev openmpi-bin libeigen3-dev libgtes
     libbenchmark-dev libpng-dev python3 python3-numpy python3-scipy
     python3-matplotlib python3-meshio python3-pandas python3-statsmodels python3-yaml python3-jinja2
     python3-plotly snakemake
+    python3-sphinx furo python3-myst-parser libjs-katex duktape
     dpkg-dev xz-utils
     ca-certificates)
 
