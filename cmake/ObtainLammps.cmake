@@ -6,7 +6,8 @@
 #   EEPA_CACHE_DIR         where source and library are kept: $EEPA_CACHE,
 #                          else $XDG_CACHE_HOME/eepa, else $HOME/.cache/eepa
 #   EEPA_LAMMPS_ARGS       more -D arguments for LAMMPS's own configuration (a list)
-#   EEPA_ARCH              LAMMPS is compiled for the same processor as the package; with
+#   EEPA_ARCH              LAMMPS is compiled for the same processor as the package (dispatch: for any
+#                          x86-64, as all of the package but its loops over contacts); with
 #                          -D EEPA_LAMMPS_ARGS=-DCMAKE_CXX_FLAGS=... you choose LAMMPS's flags yourself
 #
 # `dump vtk` is in the library where CMake finds VTK 9, `dump image` of PNG files where it finds PNG.

@@ -15,6 +15,15 @@ namespace {
     using Layout = typename ContactLaw::Layout;
 
    public:
+    int lanes() const override
+    {
+#ifdef EEPA_HAS_LANES
+      return static_cast<int>(eepa::Lanes::size());
+#else
+      return 0;
+#endif
+    }
+
     int evaluate_lanes([[maybe_unused]] const CoefficientClasses &classes,
                        [[maybe_unused]] double time_step,
                        [[maybe_unused]] const ParticleArrays &particles,
@@ -27,15 +36,6 @@ namespace {
                                                    forces, found, count, slice)
                                     : evaluate_all(OwnCoefficients(classes), time_step, particles,
                                                    forces, found, count, slice);
-#else
-      return 0;
-#endif
-    }
-
-    int wall_lanes() const override
-    {
-#ifdef EEPA_HAS_LANES
-      return WallLanes::width;
 #else
       return 0;
 #endif
@@ -132,14 +132,19 @@ namespace {
 
 }    // namespace
 
-std::unique_ptr<const ContactEngine> make_contact_engine(const eepa::LawSettings &settings,
-                                                         eepa::RollingModel rolling,
-                                                         eepa::TwistingModel twisting)
+}    // namespace LAMMPS_NS
+
+// Another name where this file is compiled for one more instruction set.
+#ifndef EEPA_MAKE_ENGINE
+#define EEPA_MAKE_ENGINE eepa_make_engine
+#endif
+
+const LAMMPS_NS::ContactEngine *EEPA_MAKE_ENGINE(const eepa::LawSettings &settings,
+                                                 eepa::RollingModel rolling,
+                                                 eepa::TwistingModel twisting)
 {
   return eepa::with_law(settings, rolling, twisting,
-                        [](auto law) -> std::unique_ptr<const ContactEngine> {
-                          return std::make_unique<ContactEngineOf<decltype(law)>>();
+                        [](auto law) -> const LAMMPS_NS::ContactEngine * {
+                          return new LAMMPS_NS::ContactEngineOf<decltype(law)>();
                         });
 }
-
-}    // namespace LAMMPS_NS

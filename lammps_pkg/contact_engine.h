@@ -15,6 +15,8 @@
 
 namespace LAMMPS_NS {
 
+class LAMMPS;
+
 /// What a force call requests for each contact.
 struct StepRequest {
   double time_step = 0.0;       ///< step to the present positions; 0 in a set-up [time]
@@ -64,6 +66,9 @@ class ContactEngine {
  public:
   virtual ~ContactEngine() = default;
 
+  /// How many contacts are evaluated side by side; 0 where there are no lanes.
+  virtual int lanes() const = 0;
+
   /// Evaluates contacts side by side and adds their forces.
   /// \param found  `count` contacts
   /// \return how many were evaluated: the first ones, as many as fill the lanes
@@ -71,12 +76,9 @@ class ContactEngine {
                              const ParticleArrays &particles, const ForceArrays &forces,
                              const FoundContact *found, int count, ContactSlice &slice) const = 0;
 
-  /// How many contacts with a wall evaluate_wall_lanes() takes; 0 where there are no lanes.
-  virtual int wall_lanes() const = 0;
-
   /// Evaluates contacts with a wall side by side, the same as evaluate() in a step without losses, and
   /// stores their new states.
-  /// \param contacts  wall_lanes() of them
+  /// \param contacts  lanes() of them
   /// \param[out] outcomes  as many; the status is not set
   virtual void evaluate_wall_lanes(const eepa::Coefficients &c, double time_step,
                                    const WallContact *contacts, ContactOutcome *outcomes) const = 0;
@@ -103,10 +105,39 @@ class ContactEngine {
 };
 
 /// Makes the engine of the chosen law.
-std::unique_ptr<const ContactEngine> make_contact_engine(const eepa::LawSettings &settings,
+std::unique_ptr<const ContactEngine> make_contact_engine(LAMMPS *lmp,
+                                                         const eepa::LawSettings &settings,
                                                          eepa::RollingModel rolling,
                                                          eepa::TwistingModel twisting);
 
+/// The instruction set of the engines that make_contact_engine() makes; nullptr in a build that has
+/// no choice.
+const char *chosen_instruction_set(LAMMPS *lmp);
+
 }    // namespace LAMMPS_NS
+
+// Engines compiled for one instruction set each. With EEPA_ARCH=dispatch contact_engine.cpp is compiled
+// for several. Their code is kept apart; what both sides of a call see is in this header.
+extern "C" {
+/// For the instruction set of all other code.
+const LAMMPS_NS::ContactEngine *eepa_make_engine(const eepa::LawSettings &settings,
+                                                 eepa::RollingModel rolling,
+                                                 eepa::TwistingModel twisting);
+const LAMMPS_NS::ContactEngine *eepa_make_engine_x86_64_v3(const eepa::LawSettings &settings,
+                                                           eepa::RollingModel rolling,
+                                                           eepa::TwistingModel twisting);
+}
+
+namespace LAMMPS_NS::detail {
+// Eigen aligns its types of 2, 4, ... numbers as the instruction set likes it. What a caller and an
+// engine share has none of them, and so one layout.
+template <class... Shared>
+constexpr bool one_layout = ((alignof(Shared) <= alignof(double)) && ...);
+static_assert(
+    one_layout<eepa::LawSettings, eepa::Coefficients, CoefficientClasses, StepRequest,
+               ParticleArrays, ForceArrays, FoundContact, DeferredForce, DeferredLoss, ContactSlice,
+               WallContact, eepa::Contact, ContactOutcome, eepa::Dissipation, ContactReport>,
+    "shared types have the layout of all instruction sets");
+}    // namespace LAMMPS_NS::detail
 
 #endif

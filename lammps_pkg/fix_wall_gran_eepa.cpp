@@ -82,9 +82,9 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
     size_peratom_cols = N_ATOM;
     peratom_freq = 1;
   }
-  engine = make_contact_engine(style.settings, parameters.rolling, parameters.twisting);
+  engine = make_contact_engine(lmp, style.settings, parameters.rolling, parameters.twisting);
   history_size = engine->history_size();
-  waiting_outcomes.resize(engine->wall_lanes());
+  waiting_outcomes.resize(engine->lanes());
   maxexchange = 1;
   dt = update->dt;
   if (typed.face_interval > 0) {

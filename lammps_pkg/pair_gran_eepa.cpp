@@ -182,10 +182,21 @@ void PairGranEepa::init_style()
   // the ledger must book contacts that open at a rebuild, so these are kept until the force call
   fix_history->keep_parting_contacts(keep_ledger);
   warn_of_fixes();
-  engine = make_contact_engine(style.settings, rolling, twisting);
+  make_engine();
   classes.clear();    // made again after init_one()
   // the request comes last: after an error LAMMPS would keep that of a pair style that may be gone
   neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
+}
+
+void PairGranEepa::make_engine()
+{
+  engine = make_contact_engine(lmp, style.settings, rolling, twisting);
+  const char *instructions = chosen_instruction_set(lmp);
+  if (!instructions || instructions_told) return;
+  instructions_told = true;
+  if (comm->me == 0)
+    utils::logmesg(lmp, "{}: contacts are evaluated with instructions of {}, {} side by side\n",
+                   style_name, instructions, engine->lanes());
 }
 
 void PairGranEepa::warn_of_fixes()

@@ -132,6 +132,7 @@ class PairGranEepa : public Pair {
   bool particles_come = false;      // whether a fix inserts particles
   bigint checked_particles = 0;     // number of particles when the time step was checked
   bool rotation_warned = false, heat_warned = false, rerun_warned = false;
+  bool instructions_told = false;
 
   EnergyLedger ledger;
   bool keep_ledger = false;
@@ -161,6 +162,7 @@ class PairGranEepa : public Pair {
   void check_newcomers();
   void check_radii() const;
   void warn_of_narrow_box();
+  void make_engine();
   void warn_of_fixes();
   int history_size() const;
   void warn(const eepa::Words &);

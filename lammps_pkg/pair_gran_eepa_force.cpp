@@ -6,7 +6,6 @@
 
 #include "compute_gran_eepa_energy_atom.h"
 #include "contact_history.h"
-#include "contact_lanes.h"
 
 #include <eepa/status.h>
 
@@ -169,14 +168,6 @@ EEPA_FUNCTION void prefetch_neighbors(const NeighborRows &rows, int place, int e
 
 /* ---------------------------------------------------------------------- finding contacts */
 
-namespace {
-#ifdef EEPA_HAS_LANES
-constexpr int side_by_side = ContactLanes::width;
-#else
-constexpr int side_by_side = 1;
-#endif
-}    // namespace
-
 void PairGranEepa::work_through(ContactSlice &slice)
 {
   slice.ledger = EnergyLedger();
@@ -189,6 +180,7 @@ void PairGranEepa::work_through(ContactSlice &slice)
   // about 300 bytes a particle: data of fewer particles are in the cache without prefetches
   constexpr int cached_particles = 8192;
   const bool far_from_cache = slice.end - slice.begin > cached_particles;
+  const int side_by_side = std::max(1, engine->lanes());
 
   std::ptrdiff_t count = 0;
   for (int ii = slice.begin; ii < slice.end; ii++) {

@@ -6,6 +6,7 @@
 #   hardening.sh sanitizers       every test with address and undefined-behaviour sanitizers
 #   hardening.sh valgrind         memcheck on tests/fuzz/in.valgrind
 #   hardening.sh differential [COUNT]  random scripts in ways that must not matter, on 1, 2 and 4 ranks (100)
+#   hardening.sh dispatch         a build with EEPA_ARCH=dispatch: its bits, its code, a processor without AVX
 #   hardening.sh fpe              the same in-file with floating-point exceptions trapped
 #   hardening.sh mutation [OPTION...]  small faults in kernel and commands, see tests/mutation/mutate.py
 #
@@ -145,6 +146,21 @@ differential() {
     return $status
 }
 
+dispatch() {
+    need qemu-x86_64 qemu-user
+    cmake -S "$root" --preset dispatch -B "$work/dispatch" >"$work/dispatch.configure.log" ||
+        die "see $work/dispatch.configure.log"
+    cmake --build "$work/dispatch" --target lmp >"$work/dispatch.build.log" ||
+        die "see $work/dispatch.build.log"
+    status=0
+    ctest --test-dir "$work/dispatch" --verbose -R '^python.dispatch$' >"$work/dispatch.log" 2>&1 ||
+        status=1
+    [ $status -eq 0 ] || grep -E 'Error|FAIL' "$work/dispatch.log" >&2 || true
+    echo "dispatch: $(grep -c '\.\.\. ok$' "$work/dispatch.log") tests passed;" \
+        "$(grep -o 'skipped=.*' "$work/dispatch.log" || echo 'none skipped)')"
+    return $status
+}
+
 mutation() {
     need clang++ clang
     need ninja ninja-build
@@ -153,6 +169,7 @@ mutation() {
 
 case ${1:-} in
 differential) differential "${2:-100}" ;;
+dispatch) dispatch ;;
 fuzz) fuzz "${2:-300}" ;;
 sanitizers) sanitizers ;;
 valgrind) valgrind_ ;;
@@ -162,7 +179,7 @@ mutation)
     mutation "$@"
     ;;
 *)
-    sed -n '3,13s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,14s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac
