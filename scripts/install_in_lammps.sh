@@ -82,7 +82,7 @@ put_files() {
         *) styles+=("$file") ;;
         esac
     done
-    put src/EEPA "${styles[@]}"
+    put src/EEPA "${styles[@]}" "$root"/lammps_pkg/in_tree/*.{h,cpp}
     put src/OPENMP "$root"/lammps_pkg/*_omp.{h,cpp} # where LAMMPS looks for styles with threads
     put lib/eepa/eepa "$root"/kernel/eepa/*.h
     put lib/eepa/eepa_commands "$root"/commands/eepa_commands/*.{h,cpp}

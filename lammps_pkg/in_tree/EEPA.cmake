@@ -1,8 +1,9 @@
 # Package EEPA. scripts/install_in_lammps.sh of the project eepa wrote this file and removes it.
 #
-# LAMMPS itself takes the styles in src/EEPA and, with PKG_OPENMP, gran/eepa/omp in src/OPENMP. What
-# they stand on is in lib/eepa.
+# LAMMPS itself takes the styles and sub-models in src/EEPA and, with PKG_OPENMP, gran/eepa/omp in src/OPENMP.
+# What they stand on is in lib/eepa.
 
+pkg_depends(EEPA GRANULAR) # for sub-models of pair_style granular
 if(CMAKE_CXX_STANDARD LESS 17)
   message(FATAL_ERROR "PKG_EEPA needs C++17: CMAKE_CXX_STANDARD=${CMAKE_CXX_STANDARD} must be 17 or more")
 endif()
