@@ -44,6 +44,9 @@ set(EEPA_CACHE_DIR "${_eepa_cache}" CACHE PATH "Keeps the LAMMPS source and libr
 set(EEPA_LAMMPS_RELEASE "4Feb2025" CACHE STRING "LAMMPS release to obtain")
 set_property(CACHE EEPA_LAMMPS_RELEASE PROPERTY STRINGS 4Feb2025 4Jul2026)
 set(EEPA_LAMMPS_ARGS "" CACHE STRING "More -D arguments for LAMMPS's configuration")
+if(EEPA_STYLES STREQUAL "in_lammps")
+  list(APPEND EEPA_LAMMPS_ARGS -D PKG_EEPA=on)
+endif()
 
 # Debian's suite and version of its source package, and the tag in LAMMPS's own repository.
 set(_eepa_debian_4Feb2025 trixie 20250204+dfsg.1-2)

@@ -9,6 +9,7 @@
 #   hardening.sh dispatch         a build with EEPA_ARCH=dispatch: its bits, its code, a processor without AVX
 #   hardening.sh fpe              the same in-file with floating-point exceptions trapped
 #   hardening.sh mutation [OPTION...]  small faults in kernel and commands, see tests/mutation/mutate.py
+#   hardening.sh intree [LAMMPS]  install into a copy of this LAMMPS source, build it, run the tests against it, remove
 #
 # EEPA_LMP: the lmp to use (build/lmp). EEPA_HARDENING_DIR: working folder (build-hardening).
 set -eu
@@ -167,12 +168,44 @@ mutation() {
     python3 "$root/tests/mutation/mutate.py" --work "$work/mutation" "$@"
 }
 
+intree() {
+    source=${1:-${EEPA_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/eepa}/source/lammps-4Feb2025}
+    tree=$work/intree/lammps
+    need git git
+    [ -f "$source/src/version.h" ] || die "$source is no LAMMPS source tree: give one"
+    # a copy that an earlier run left clean is used again, and so is what was built of it
+    if [ "$(cat "$tree/copied_from" 2>/dev/null)" != "$source" ]; then
+        rm -rf "$tree"
+        mkdir -p "$tree"
+        (cd "$source" && tar -cf - --exclude=.git .) | tar -xf - -C "$tree"
+        echo "$source" >"$tree/copied_from"
+        git -C "$tree" init -q
+        git -C "$tree" add -A -f
+        git -C "$tree" -c user.name=eepa -c user.email=eepa@localhost commit -qm "as it was"
+    fi
+    "$root/scripts/install_in_lammps.sh" "$tree"
+    cmake -S "$root" -B "$work/intree/build" -D LAMMPS_SOURCE_DIR="$tree" -D EEPA_STYLES=in_lammps \
+        -D EEPA_CACHE_DIR="$work/intree/cache" >"$work/intree/configure.log" ||
+        die "see $work/intree/configure.log"
+    cmake --build "$work/intree/build" >"$work/intree/build.log" || die "see $work/intree/build.log"
+    status=0
+    ctest --test-dir "$work/intree/build" --output-on-failure \
+        -R '^(lammps|python.(contact_cycle|granular_sub_models|wear))' >"$work/intree/test.log" 2>&1 || status=1
+    "$root/scripts/install_in_lammps.sh" --remove "$tree"
+    left=$(git -C "$tree" status --porcelain --ignored | wc -l)
+    [ "$left" -eq 0 ] || status=1
+    echo "intree: $(grep 'tests passed' "$work/intree/test.log" || echo "see $work/intree/test.log");" \
+        "$left files differ after removal"
+    return $status
+}
+
 case ${1:-} in
 differential) differential "${2:-100}" ;;
 dispatch) dispatch ;;
 fuzz) fuzz "${2:-300}" ;;
 sanitizers) sanitizers ;;
 valgrind) valgrind_ ;;
+intree) intree "${2:-}" ;;
 fpe) fpe ;;
 mutation)
     shift

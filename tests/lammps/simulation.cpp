@@ -68,7 +68,9 @@ Simulation::Simulation(MPI_Comm comm, const std::string &log) : comm_(comm)
 {
   LAMMPS::argv arguments = {"test_lammps", "-log", log, "-screen", "none", "-nocite"};
   lammps_ = std::make_unique<LAMMPS>(arguments, comm);
+#ifndef EEPA_STYLES_IN_LAMMPS
   register_eepa_styles(lammps_.get());
+#endif
 }
 
 Simulation::~Simulation() = default;
