@@ -6,6 +6,7 @@
 #   EEPA_CACHE_DIR         where source and library are kept: $EEPA_CACHE,
 #                          else $XDG_CACHE_HOME/eepa, else $HOME/.cache/eepa
 #   EEPA_LAMMPS_ARGS       more -D arguments for LAMMPS's own configuration (a list)
+#   EEPA_KOKKOS            LAMMPS with its package KOKKOS: see docs/kokkos.md
 #   EEPA_ARCH              LAMMPS is compiled for the same processor as the package (dispatch: for any
 #                          x86-64, as all of the package but its loops over contacts); with
 #                          -D EEPA_LAMMPS_ARGS=-DCMAKE_CXX_FLAGS=... you choose LAMMPS's flags yourself
@@ -157,6 +158,30 @@ function(_eepa_find_vtk variable)
   set(${variable} "${file}" PARENT_SCOPE)
 endfunction()
 
+# Arguments that add KOKKOS to LAMMPS, with the Kokkos in its tree or with an installed one.
+function(_eepa_kokkos_arguments source version variable)
+  if(NOT date EQUAL 20250204)
+    message(FATAL_ERROR "EEPA_KOKKOS=on needs LAMMPS 4 Feb 2025, and ${source} has ${version}: "
+      "the classes of KOKKOS differ between versions, and gran/eepa/kk was written for that one")
+  endif()
+  if(NOT IS_DIRECTORY "${source}/src/KOKKOS")
+    message(FATAL_ERROR "EEPA_KOKKOS=on: ${source} has no src/KOKKOS")
+  endif()
+  if(EXISTS "${source}/lib/kokkos/CMakeLists.txt" AND NOT Kokkos_ROOT)
+    set(${variable} -D PKG_KOKKOS=on -D Kokkos_ENABLE_SERIAL=on -D Kokkos_ENABLE_OPENMP=on PARENT_SCOPE)
+    return()
+  endif()
+  # `separable_compilation`: only sources that include Kokkos are compiled with its compiler
+  find_package(Kokkos 4.5.01 QUIET CONFIG COMPONENTS separable_compilation)
+  if(NOT Kokkos_FOUND)
+    message(FATAL_ERROR "EEPA_KOKKOS=on needs Kokkos 4.5.01 or newer, and finds none: "
+      "${source} has no lib/kokkos (Debian's source package leaves it out). Install Kokkos and give its folder "
+      "with -D Kokkos_ROOT=..., or give a LAMMPS source tree that has lib/kokkos with -D LAMMPS_SOURCE_DIR=...")
+  endif()
+  message(STATUS "Found Kokkos: ${Kokkos_DIR} (found version \"${Kokkos_VERSION}\", ${Kokkos_DEVICES})")
+  set(${variable} -D PKG_KOKKOS=on -D EXTERNAL_KOKKOS=on -D "Kokkos_DIR=${Kokkos_DIR}" PARENT_SCOPE)
+endfunction()
+
 # Configures and builds LAMMPS's library in `build`.
 function(_eepa_build_lammps source build)
   file(MAKE_DIRECTORY "${build}")
@@ -186,7 +211,7 @@ function(_eepa_build_lammps source build)
       -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_STANDARD=17 -D CMAKE_EXPORT_COMPILE_COMMANDS=on
       -D "CMAKE_CXX_FLAGS=${_eepa_flags}"
       -D BUILD_SHARED_LIBS=on -D BUILD_MPI=on -D BUILD_OMP=on
-      ${packages} ${graphics}
+      ${packages} ${graphics} ${kokkos}
       -D WITH_PNG=${png} -D WITH_JPEG=off -D WITH_GZIP=off -D WITH_FFMPEG=off -D WITH_CURL=off
       ${EEPA_LAMMPS_ARGS}
     OUTPUT_FILE "${build}/eepa_configure.log" ERROR_FILE "${build}/eepa_configure.log"
@@ -396,10 +421,15 @@ function(_eepa_obtain_lammps)
 
   _eepa_read_version("${source}" date version)
 
+  set(kokkos "")
+  if(EEPA_KOKKOS)
+    _eepa_kokkos_arguments("${source}" "${version}" kokkos)
+  endif()
+
   # The key has everything that could make a library differ, so that configurations never share one by mistake.
   string(SHA256 key "${source}|${version}|${CMAKE_CXX_COMPILER}|${CMAKE_CXX_COMPILER_ID}|\
 ${CMAKE_CXX_COMPILER_VERSION}|${CMAKE_GENERATOR}|${MPI_CXX_LIBRARIES}|${PNG_LIBRARIES}|${_eepa_vtk}|\
-${EEPA_LAMMPS_ARGS}|${_eepa_flags}|${_eepa_machine}|$ENV{LDFLAGS}|recipe 2")
+${EEPA_LAMMPS_ARGS}|${_eepa_flags}|${_eepa_machine}|$ENV{LDFLAGS}|recipe 2${kokkos}")
   string(SUBSTRING ${key} 0 12 key)
   set(build "${cache}/build/lammps-${name}-${key}")
   set(library "${build}/liblammps${CMAKE_SHARED_LIBRARY_SUFFIX}")

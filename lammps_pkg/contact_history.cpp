@@ -73,11 +73,11 @@ Fix *ContactHistory::create(LAMMPS *lmp, int narg, char **arg)
 }
 
 ContactHistory *ContactHistory::make(LAMMPS *lmp, const std::string &id, int values,
-                                     Pair *contacts_of)
+                                     Pair *contacts_of, Modify::FixCreator make_fix)
 {
   ContactHistory *made = nullptr;
   {
-    const OtherCreator creator(lmp->modify, &ContactHistory::create);
+    const OtherCreator creator(lmp->modify, make_fix);
     // without a suffix: NEIGH_HISTORY/omp forgets contacts with ghosts with newton on
     made = static_cast<ContactHistory *>(lmp->modify->replace_fix(
         place_holder(id), fmt::format("{} all {} {}", id, fix_style, values), 0));

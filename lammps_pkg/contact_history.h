@@ -35,7 +35,9 @@ class ContactHistory : public FixNeighHistory {
   /// place holder then stays, so that a program can try again with other coefficients. Collective.
   /// \param values  number of values of a contact
   /// \param contacts_of  the pair style whose contacts are kept
-  static ContactHistory *make(LAMMPS *, const std::string &id, int values, class Pair *contacts_of);
+  /// \param creator  of this class or one derived from it
+  static ContactHistory *make(LAMMPS *, const std::string &id, int values, class Pair *contacts_of,
+                              Fix *(*creator)(LAMMPS *, int, char **) = &ContactHistory::create);
   /// The ID of the fix that reserves a place in the list of fixes until make().
   static std::string place_holder(const std::string &id) { return id + "_DUMMY"; }
 
@@ -93,8 +95,11 @@ class ContactHistory : public FixNeighHistory {
   int size_restart(int) override;
   int maxsize_restart() override;
 
- private:
+ protected:
   ContactHistory(LAMMPS *, int, char **);
+  bool watches_radii() const { return radii_change; }
+
+ private:
   static Fix *create(LAMMPS *, int, char **);
   void keep_partners_in_new_pages();
   void forget_partners_with_new_ids();

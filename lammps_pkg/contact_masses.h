@@ -51,6 +51,10 @@ class ContactMasses : protected Pointers {
   int pack_bodies(int n, const int *atoms, double *buf) const;    ///< 2 numbers an atom
   void unpack_bodies(int n, int first, const double *buf);
 
+  /// Of each atom, its body's mass and number; 0 for an atom in no body.
+  const std::vector<double> &body_masses() const { return body_mass_; }
+  const std::vector<double> &bodies() const { return body_; }
+
   int freeze_groupbit() const { return freeze_groupbit_; }
   double memory_usage() const;
 

@@ -10,6 +10,9 @@
 #ifdef _OPENMP
 #include "pair_gran_eepa_omp.h"
 #endif
+#ifdef EEPA_KOKKOS
+#include "kokkos/kokkos_styles.h"
+#endif
 
 #include "force.h"
 #include "lammps.h"
@@ -38,6 +41,13 @@ const std::vector<EepaStyle> &LAMMPS_NS::eepa_styles()
 #ifdef _OPENMP
       {"pair", "gran/eepa/omp", "the same with threads", pair_maker<PairGranEepaOMP>, nullptr,
        nullptr},
+#endif
+#ifdef EEPA_KOKKOS
+      {"pair", "gran/eepa/kk", "the same on the device of KOKKOS", make_gran_eepa_on_device, nullptr,
+       nullptr},
+      {"pair", "gran/eepa/kk/device", "the same", make_gran_eepa_on_device, nullptr, nullptr},
+      {"pair", "gran/eepa/kk/host", "the same on the host, with KOKKOS", make_gran_eepa_on_host,
+       nullptr, nullptr},
 #endif
       {"fix", "wall/gran/eepa", "walls of pair style gran/eepa", nullptr,
        maker<Fix, FixWallGranEepa>, nullptr},

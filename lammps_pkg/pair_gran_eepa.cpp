@@ -215,11 +215,16 @@ void PairGranEepa::warn_of_fixes()
   say_once(advice_on_rerun(lmp), rerun_warned);
 }
 
+ContactHistory *PairGranEepa::make_history(int values)
+{
+  return ContactHistory::make(lmp, history_id, values, this);
+}
+
 void PairGranEepa::init_history()
 {
   const int size = history_size();
   if (!fix_history) {
-    fix_history = ContactHistory::make(lmp, history_id, size, this);
+    fix_history = make_history(size);
   } else if (fix_history->get_dnum() != size) {
     error->all(FLERR, "{}: rolling sds and twisting can not be switched on or off after a run",
                style_name);

@@ -174,8 +174,20 @@ class PairGranEepa : public Pair {
   eepa::Body<double> lone_body(int i) const;
   void set_quantities(const eepa::Contact &, const ContactReport &);
 
+  /// Data that a variant of this style may keep elsewhere than in LAMMPS's arrays on the host.
+  enum class HostData {
+    SIZES,       ///< radii, masses, types and groups of particles
+    MOTION,      ///< and positions, velocities and IDs
+    CONTACTS     ///< and statuses and histories of contacts
+  };
+  /// Makes the data on the host those of the last force call, before the host reads them.
+  virtual void bring_to_host(HostData) {}
+  virtual class ContactHistory *make_history(int values);
+
   ParticleArrays particle_arrays();
   bool bonds_weaken_contacts() const;
+  void begin_force_call();
+  void end_force_call();
   /// Evaluates the contacts of all slices of the neighbour list.
   virtual void work_through_list();
   void work_through(ContactSlice &);

@@ -33,6 +33,22 @@ ParticleArrays PairGranEepa::particle_arrays()
 void PairGranEepa::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
+  begin_force_call();
+  particles = particle_arrays();
+  forces = {atom->f[0], atom->torque[0]};
+  in_lanes = !evflag && !keep_ledger && request.advance && !bonds_weaken_contacts();
+  work_through_list();
+  for (auto &slice : slices) {
+    if (slice.deep_i >= 0) stop_at_overlap(slice.deep_i, slice.deep_j);
+    if (!keep_ledger) continue;
+    ledger.store(slice.ledger.elastic, 1.0);
+    ledger.dissipated.add(slice.ledger.dissipated, 1.0);
+  }
+  end_force_call();
+}
+
+void PairGranEepa::begin_force_call()
+{
   // not in setup(), which rerun does not call
   if (classes.empty()) classes.choose(atom->ntypes, parameters, coefficients);
   if (masses.has_bodies() && neighbor->ago == 0) {
@@ -43,22 +59,16 @@ void PairGranEepa::compute(int eflag, int vflag)
     check_newcomers();
     check_radii();
   }
-  particles = particle_arrays();
-  forces = {atom->f[0], atom->torque[0]};
   request = StepRequest::of_call(update->setupflag == 0, dt, keep_ledger, ledger_starts);
   request.wants_energy |= eflag_either != 0;
-  in_lanes = !evflag && !keep_ledger && request.advance && !bonds_weaken_contacts();
   fix_history->force_is_computed();
   keep_atom_losses = request.wants_losses && !ComputeGranEepaEnergyAtom::find(modify).empty();
   if (keep_atom_losses) atom_losses.start(atom->nlocal + atom->nghost);
   ledger.elastic = eepa::StoredEnergy();
-  work_through_list();
-  for (auto &slice : slices) {
-    if (slice.deep_i >= 0) stop_at_overlap(slice.deep_i, slice.deep_j);
-    if (!keep_ledger) continue;
-    ledger.store(slice.ledger.elastic, 1.0);
-    ledger.dissipated.add(slice.ledger.dissipated, 1.0);
-  }
+}
+
+void PairGranEepa::end_force_call()
+{
   if (keep_atom_losses) hand_over_atom_losses();
   if (update->setupflag == 0) ledger_starts = false;
 }

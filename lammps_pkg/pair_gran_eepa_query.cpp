@@ -55,6 +55,7 @@ void PairGranEepa::require_their_distance(int i, int j, double rsq) const
 double PairGranEepa::single(int i, int j, int itype, int jtype, double rsq, double /*factor_coul*/,
                             double factor_lj, double &fforce)
 {
+  bring_to_host(HostData::CONTACTS);
   require_their_distance(i, j, rsq);
   fforce = 0.0;
   for (int k = 0; k < single_extra; k++) svector[k] = 0.0;
@@ -114,6 +115,7 @@ void PairGranEepa::set_quantities(const eepa::Contact &contact, const ContactRep
 
 ContactCensus PairGranEepa::census(int groupbit)
 {
+  bring_to_host(HostData::CONTACTS);
   // all sums in one array for a single reduction: see the assignments below
   double sum[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   double largest = 0.0;

@@ -102,6 +102,7 @@ void PairGranEepa::check_radii() const
 
 TimeStepBound PairGranEepa::largest_time_step(const std::vector<AnnouncedParticles> &announced)
 {
+  bring_to_host(HostData::SIZES);
   const int n = atom->ntypes;
   std::vector<double> partner(n + 1, 0.0);
   for (int type = 1; type <= n; type++) partner[type] = largest_partner(type);

@@ -64,9 +64,23 @@ double Particle::kinetic_energy() const
   return 0.5 * mass * v.squaredNorm() + 0.2 * mass * radius * radius * omega.squaredNorm();
 }
 
-Simulation::Simulation(MPI_Comm comm, const std::string &log) : comm_(comm)
+std::vector<std::string> kokkos_of_environment()
+{
+  const char *threads = std::getenv("EEPA_TEST_KOKKOS");
+  return threads ? kokkos_with(threads) : std::vector<std::string>();
+}
+
+std::vector<std::string> kokkos_with(const std::string &threads)
+{
+  return {"-kokkos", "on", "t", threads, "-suffix", "kk", "-package", "kokkos", "neigh", "half"};
+}
+
+Simulation::Simulation(MPI_Comm comm, const std::string &log,
+                       const std::vector<std::string> &more) :
+    comm_(comm)
 {
   LAMMPS::argv arguments = {"test_lammps", "-log", log, "-screen", "none", "-nocite"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
   lammps_ = std::make_unique<LAMMPS>(arguments, comm);
 #ifndef EEPA_STYLES_IN_LAMMPS
   register_eepa_styles(lammps_.get());

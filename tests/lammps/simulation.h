@@ -60,13 +60,20 @@ struct PairContact {
   Vec3 tangential() const { return {p[0], p[1], p[2]}; }    ///< on i
 };
 
+/// LAMMPS's command line for KOKKOS. A process has one number of threads, that of its first LAMMPS.
+std::vector<std::string> kokkos_with(const std::string &threads);
+/// The same with the threads that the environment's EEPA_TEST_KOKKOS asks for; nothing without it.
+std::vector<std::string> kokkos_of_environment();
+
 /// A LAMMPS with this package's styles. Everything is collective over `comm`, and every answer
 /// is the same on all ranks.
 class Simulation {
  public:
   /// \param comm  MPI_COMM_SELF for a run of one rank beside the others
   /// \param log  file for the log, or "none"
-  explicit Simulation(MPI_Comm comm = MPI_COMM_WORLD, const std::string &log = "none");
+  /// \param more  of LAMMPS's command line
+  explicit Simulation(MPI_Comm comm = MPI_COMM_WORLD, const std::string &log = "none",
+                      const std::vector<std::string> &more = kokkos_of_environment());
   ~Simulation();
 
   /// Runs command lines; `&` at a line's end continues it.

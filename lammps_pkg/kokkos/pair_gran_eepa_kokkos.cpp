@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "pair_gran_eepa_kokkos.h"
+
+#include "kokkos_styles.h"
+
+#include "atom_kokkos.h"
+#include "atom_masks.h"
+#include "error.h"
+#include "force.h"
+#include "kokkos.h"
+#include "memory_kokkos.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <limits>
+#include <type_traits>
+
+using namespace LAMMPS_NS;
+
+namespace {
+constexpr const char *style_name = "pair_style gran/eepa/kk";
+
+/// The host's numbers as a view, without a copy.
+template <class T> auto view_of(const std::vector<T> &numbers)
+{
+  return Kokkos::View<const T *, Kokkos::HostSpace, Kokkos::MemoryUnmanaged>(numbers.data(),
+                                                                             numbers.size());
+}
+
+template <class T, class View>
+void send(const std::vector<T> &numbers, const std::string &name, View &view)
+{
+  if (view.extent(0) != numbers.size())
+    view = View(Kokkos::view_alloc(name, Kokkos::WithoutInitializing), numbers.size());
+  Kokkos::deep_copy(view, view_of(numbers));
+}
+
+/// Lets LAMMPS take a pair style for one of the host while this object lives.
+class AsOnHost {
+ public:
+  explicit AsOnHost(ExecutionSpace &of) : space(of), before(of) { space = Host; }
+  ~AsOnHost() { space = before; }
+  AsOnHost(const AsOnHost &) = delete;
+  AsOnHost &operator=(const AsOnHost &) = delete;
+
+ private:
+  ExecutionSpace &space;
+  const ExecutionSpace before;
+};
+}    // namespace
+
+template <class DeviceType>
+PairGranEepaKokkos<DeviceType>::PairGranEepaKokkos(LAMMPS *lmp) : PairGranEepa(lmp)
+{
+  if (!lmp->kokkos)
+    error->all(FLERR, "{}: KOKKOS is off; start LAMMPS with -k on, or use gran/eepa", style_name);
+  kokkosable = 1;
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  datamask_read = X_MASK | V_MASK | OMEGA_MASK | F_MASK | TORQUE_MASK | TYPE_MASK | MASK_MASK |
+      ENERGY_MASK | VIRIAL_MASK | RMASS_MASK | RADIUS_MASK;
+  datamask_modify = F_MASK | TORQUE_MASK | ENERGY_MASK | VIRIAL_MASK;
+  deep = decltype(deep)("eepa:deep");
+  Kokkos::deep_copy(deep, DeepContact::none);
+}
+
+template <class DeviceType> PairGranEepaKokkos<DeviceType>::~PairGranEepaKokkos()
+{
+  if (copymode) return;
+  memoryKK->destroy_kokkos(energy_of_atoms, eatom);
+  memoryKK->destroy_kokkos(virial_of_atoms, vatom);
+  eatom = nullptr;
+  vatom = nullptr;
+}
+
+/* ---------------------------------------------------------------------- set-up */
+
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::init_style()
+{
+  if (lmp->kokkos->neighflag == FULL)
+    error->all(FLERR,
+               "{}: neighbor lists of KOKKOS are full and must be half: say `package kokkos neigh "
+               "half`, or "
+               "-pk kokkos neigh half when LAMMPS starts",
+               style_name);
+  // Particles go to other processors with histories that are on the host then. LAMMPS would change to this itself, with
+  // a warning for each fix.
+  lmp->kokkos->exchange_comm_classic = 1;
+  lmp->kokkos->sort_classic = 1;
+
+  PairGranEepa::init_style();
+  device_engine = make_contact_engine_kokkos<DeviceType>(style.settings, rolling, twisting);
+  auto *request = neighbor->find_request(this);
+  constexpr bool on_device = std::is_same_v<DeviceType, LMPDeviceType>;
+  request->set_kokkos_host(!on_device);
+  request->set_kokkos_device(on_device);
+}
+
+template <class DeviceType> ContactHistory *PairGranEepaKokkos<DeviceType>::make_history(int values)
+{
+  device_history = ContactHistoryKokkos<DeviceType>::make(lmp, history_id, values, this);
+  return device_history;
+}
+
+template <class DeviceType>
+void PairGranEepaKokkos<DeviceType>::init_list(int /*id*/, NeighList *made)
+{
+  device_list = static_cast<NeighListKokkos<DeviceType> *>(made);
+  list = device_history->follow(device_list);
+}
+
+/* ---------------------------------------------------------------------- force call */
+
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag, 0);
+  if (classes.empty()) send_coefficients();
+  {
+    const AsOnHost masses_of_bodies(execution_space);
+    if (neighbor->ago == 0) bring_to_host(HostData::SIZES);
+    begin_force_call();
+  }
+  if (masses.has_bodies() && neighbor->ago == 0) send_bodies();
+  allocate_tallies_of_atoms();
+
+  atomKK->sync(execution_space, datamask_read);
+  const ContactStep<DeviceType> step = step_of_call();
+  device_history->device_has_changed();
+  if (evflag || keep_ledger || !request.advance)
+    take_sums(device_engine->add_forces_and_tally(step));
+  else
+    device_engine->add_forces(step);
+  atomKK->modified(execution_space, evflag ? datamask_modify : F_MASK | TORQUE_MASK);
+  stop_where_too_deep();
+  if (keep_atom_losses) take_losses_of_atoms();
+  end_force_call();
+}
+
+template <class DeviceType> ContactStep<DeviceType> PairGranEepaKokkos<DeviceType>::step_of_call()
+{
+  ContactStep<DeviceType> step;
+  step.inum = device_list->inum;
+  step.ilist = device_list->d_ilist;
+  step.numneigh = device_list->d_numneigh;
+  step.neighbors = device_list->d_neighbors;
+  step.rows = device_history->rows();
+
+  step.x = atomKK->k_x.template view<DeviceType>();
+  step.v = atomKK->k_v.template view<DeviceType>();
+  step.omega = atomKK->k_omega.template view<DeviceType>();
+  step.radius = atomKK->k_radius.template view<DeviceType>();
+  step.rmass = atomKK->k_rmass.template view<DeviceType>();
+  step.type = atomKK->k_type.template view<DeviceType>();
+  step.mask = atomKK->k_mask.template view<DeviceType>();
+  step.f = atomKK->k_f.template view<DeviceType>();
+  step.torque = atomKK->k_torque.template view<DeviceType>();
+  step.written = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
+  step.several_write = lmp->kokkos->neighflag != HALF;
+
+  step.holds_some = masses.holds_some();
+  step.has_bodies = masses.has_bodies();
+  step.freeze_groupbit = masses.freeze_groupbit();
+  step.infinite = std::numeric_limits<double>::infinity();
+  step.body_mass = body_mass;
+  step.body = body;
+
+  step.coefficients = device_coefficients;
+  step.stride = pair_index(1, 0);
+  for (int k = 0; k < 4; k++) step.special[k] = force->special_lj[k];
+
+  step.request = request;
+  step.tallies.energy = eflag_global != 0;
+  step.tallies.virial = vflag_global != 0;
+  step.tallies.energy_of_atoms = eflag_atom != 0;
+  step.tallies.virial_of_atoms = vflag_atom != 0;
+  step.tallies.ledger = keep_ledger;
+  step.tallies.losses_of_atoms = keep_atom_losses;
+  step.energy_of_atoms = energy_of_atoms.template view<DeviceType>();
+  step.virial_of_atoms = virial_of_atoms.template view<DeviceType>();
+  step.losses_of_atoms = losses_of_atoms;
+  step.deep = deep;
+  return step;
+}
+
+/* ---------------------------------------------------------------------- what goes to the device */
+
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::send_coefficients()
+{
+  send(coefficients, "eepa:coefficients", device_coefficients);
+}
+
+/// Masses and numbers of rigid bodies change with the neighbour list.
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::send_bodies()
+{
+  send(masses.body_masses(), "eepa:body_mass", body_mass);
+  send(masses.bodies(), "eepa:body", body);
+}
+
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::allocate_tallies_of_atoms()
+{
+  if (eflag_atom) {
+    memoryKK->destroy_kokkos(energy_of_atoms, eatom);
+    memoryKK->create_kokkos(energy_of_atoms, eatom, maxeatom, "pair:eatom");
+  }
+  if (vflag_atom) {
+    memoryKK->destroy_kokkos(virial_of_atoms, vatom);
+    memoryKK->create_kokkos(virial_of_atoms, vatom, maxvatom, "pair:vatom");
+  }
+  if (!keep_atom_losses) return;
+  const int atoms = atom->nlocal + atom->nghost;
+  if (static_cast<int>(losses_of_atoms.extent(0)) < atoms)
+    losses_of_atoms = decltype(losses_of_atoms)("eepa:losses_of_atoms", atoms, AtomLosses::kinds);
+  else
+    Kokkos::deep_copy(losses_of_atoms, 0.0);
+}
+
+/* ---------------------------------------------------------------------- what comes back */
+
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::take_sums(const StepSums &sums)
+{
+  if (eflag_global) eng_vdwl += sums.energy;
+  if (vflag_global)
+    for (int k = 0; k < 6; k++) virial[k] += sums.virial[k];
+  if (eflag_atom) {
+    energy_of_atoms.template modify<DeviceType>();
+    energy_of_atoms.template sync<LMPHostType>();
+  }
+  if (vflag_atom) {
+    virial_of_atoms.template modify<DeviceType>();
+    virial_of_atoms.template sync<LMPHostType>();
+  }
+  if (!keep_ledger) return;
+  ledger.store(sums.elastic, 1.0);
+  ledger.dissipated.add(sums.dissipated, 1.0);
+}
+
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::take_losses_of_atoms()
+{
+  const int atoms = atom->nlocal + atom->nghost;
+  using Rows =
+      Kokkos::View<double **, Kokkos::LayoutRight, Kokkos::HostSpace, Kokkos::MemoryUnmanaged>;
+  Kokkos::deep_copy(Rows(atom_losses.row(0), atoms, AtomLosses::kinds),
+                    Kokkos::subview(losses_of_atoms, std::make_pair(0, atoms), Kokkos::ALL));
+}
+
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::stop_where_too_deep()
+{
+  unsigned long long found = DeepContact::none;
+  Kokkos::deep_copy(found, deep);
+  if (found == DeepContact::none) return;
+  Kokkos::deep_copy(deep, DeepContact::none);    // a program may go on with another run
+  bring_to_host(HostData::MOTION);
+  stop_at_overlap(DeepContact::i_of(found), DeepContact::j_of(found));
+}
+
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::bring_to_host(HostData data)
+{
+  unsigned int mask = RADIUS_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK;
+  if (data != HostData::SIZES) mask |= X_MASK | V_MASK | OMEGA_MASK | TAG_MASK;
+  atomKK->sync(Host, mask);
+  if (data == HostData::CONTACTS && device_history) device_history->bring_to_host();
+}
+
+template <class DeviceType> double PairGranEepaKokkos<DeviceType>::memory_usage()
+{
+  return PairGranEepa::memory_usage() +
+      static_cast<double>(device_coefficients.extent(0) * sizeof(eepa::Coefficients) +
+                          (body_mass.extent(0) + body.extent(0) + losses_of_atoms.size()) *
+                              sizeof(double));
+}
+
+/* ---------------------------------------------------------------------- */
+
+Pair *LAMMPS_NS::make_gran_eepa_on_device(LAMMPS *lmp)
+{
+  return new PairGranEepaKokkos<LMPDeviceType>(lmp);
+}
+Pair *LAMMPS_NS::make_gran_eepa_on_host(LAMMPS *lmp)
+{
+  return new PairGranEepaKokkos<LMPHostType>(lmp);
+}
+
+namespace LAMMPS_NS {
+template class PairGranEepaKokkos<LMPDeviceType>;
+#ifdef LMP_KOKKOS_GPU
+template class PairGranEepaKokkos<LMPHostType>;
+#endif
+}    // namespace LAMMPS_NS

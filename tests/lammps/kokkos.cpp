@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-2.0-only
+
+// pair_style gran/eepa/kk against gran/eepa: motion, tallies, restart files, errors. The tests of the other files are run
+// with it, too: the ctest entries lammps.kk.*.
+
+#ifdef EEPA_KOKKOS
+
+#include "packing.h"
+
+#include "compute.h"
+#include "force.h"
+#include "lammps.h"
+#include "modify.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+using namespace eepa_test;
+
+namespace {
+
+struct Law {
+  const char *name, *style, *coefficients;
+  const char *unlike;    ///< coefficients between the two types
+};
+
+/// A LAMMPS with KOKKOS, whatever the environment says, or one without.
+class Variant : public Simulation {
+ public:
+  explicit Variant(bool kokkos, MPI_Comm comm = MPI_COMM_WORLD) :
+      Simulation(comm, "none", kokkos ? with_kokkos() : std::vector<std::string>())
+  {
+  }
+
+ private:
+  static std::vector<std::string> with_kokkos()
+  {
+    return std::getenv("EEPA_TEST_KOKKOS") ? kokkos_of_environment() : kokkos_with("1");
+  }
+};
+
+class ParallelKokkos : public testing::TestWithParam<Law> {
+ protected:
+  const Law &law = GetParam();
+
+  void start(Simulation &simulation, const std::string &newton, const std::string &after = "")
+  {
+    Packing packing;
+    packing.polydisperse = true;
+    packing.types = 2;
+    packing.speed = 1.0;
+    simulation.open_box(packing.half(), 2, "p p p", newton);
+    simulation.create(packing.spheres());
+    simulation(std::string("pair_style gran/eepa ") + law.style + "\npair_coeff * * " +
+               law.coefficients + "\npair_coeff 1 2 " + law.unlike +
+               "\nfix integrate all nve/sphere\ntimestep 2e-4\n" + after);
+  }
+};
+
+TEST_P(ParallelKokkos, GivesTheMotionOfTheHost)
+{
+  for (const char *newton : {"on", "off"}) {
+    Variant host(false), device(true);
+    for (Simulation *simulation :
+         {static_cast<Simulation *>(&host), static_cast<Simulation *>(&device)})
+      start(*simulation, newton);
+    // rounding errors grow exponentially in a packing that is shaken
+    const std::pair<int, double> stages[] = {{0, 1e-13}, {1, 1e-13}, {99, 1e-12}, {400, 1e-9}};
+    for (const auto &[steps, tolerance] : stages) {
+      host.run(steps);
+      device.run(steps);
+      EXPECT_LT(difference(host.particles(), device.particles()), tolerance)
+          << steps << " newton " << newton;
+    }
+    // the host's style would pass every test here
+    EXPECT_STREQ(device.lammps()->force->pair_style, "gran/eepa/kk");
+    EXPECT_STREQ(host.lammps()->force->pair_style, "gran/eepa");
+  }
+}
+
+TEST_P(ParallelKokkos, TalliesWhatTheHostTallies)
+{
+  for (const char *newton : {"on", "off"}) {
+    Variant host(false), device(true);
+    for (Simulation *simulation :
+         {static_cast<Simulation *>(&host), static_cast<Simulation *>(&device)}) {
+      start(*simulation, newton,
+            "compute ledger all gran/eepa/energy\ncompute contacts all gran/eepa/contacts\n"
+            "compute losses all gran/eepa/energy/atom\ncompute dt all gran/eepa/dt\n"
+            "compute energies all pe/atom pair\ncompute stresses all stress/atom NULL pair\n"
+            "compute energy all reduce sum c_energies\n"
+            "compute stress all reduce sum c_stresses[1] c_stresses[2] c_stresses[3] c_stresses[4] "
+            "c_stresses[5] "
+            "c_stresses[6]\n"
+            "compute lost all reduce sum c_losses[*]\n"
+            "compute pressure all pressure NULL pair\nthermo 10\n"
+            "thermo_style custom step pe c_pressure c_ledger[1] c_energy c_stress[1] c_lost[1] "
+            "c_contacts[1] c_dt");
+      simulation->watch_contacts();
+      simulation->run(200);
+    }
+    for (const char *compute : {"ledger", "contacts", "stress", "lost"}) {
+      const auto a = host.compute_vector(compute), b = device.compute_vector(compute);
+      ASSERT_EQ(a.size(), b.size());
+      double largest = 0.0;
+      for (const double value : a) largest = std::max(largest, std::fabs(value));
+      EXPECT_GT(largest, 0.0) << compute;
+      for (std::size_t k = 0; k < a.size(); k++)
+        EXPECT_NEAR(a[k], b[k], 1e-9 * largest) << compute << " " << k;
+    }
+    for (const char *compute : {"energy", "pressure", "dt"})
+      EXPECT_NEAR(host.compute(compute), device.compute(compute),
+                  1e-9 * std::fabs(host.compute(compute)))
+          << compute;
+    EXPECT_NEAR(host.thermo("pe"), device.thermo("pe"), 1e-9 * std::fabs(host.thermo("pe")));
+
+    const auto a = host.contacts(), b = device.contacts();
+    ASSERT_GT(a.size(), 300u);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); k++) {
+      EXPECT_NEAR(a[k].max_overlap(), b[k].max_overlap(), 1e-9);
+      EXPECT_EQ(a[k].branch(), b[k].branch());
+      EXPECT_EQ(a[k].slip(), b[k].slip());
+      EXPECT_NEAR(a[k].normal_force, b[k].normal_force, 1e-7);
+    }
+  }
+}
+
+// A file of either style goes on with the other one, as if the run had not been cut.
+TEST_P(ParallelKokkos, ExchangesRestartFilesWithTheHost)
+{
+  const ScratchFile between(".between"), within(".within");
+  for (const bool from_device : {false, true}) {
+    Variant written(from_device), read(!from_device);
+    start(written, "off");
+    written.run(150);
+    written("write_restart " + between.name());
+    // one more in the midst of a run, between two neighbour lists
+    written("restart 77 " + within.name());
+    written.run(77 - 150 % 77);
+    written("restart 0");
+    const int at = 150 + 77 - 150 % 77;
+    written.run(350 - at);
+
+    for (const auto *file : {&between, &within}) {
+      Variant other(!from_device);
+      other("read_restart " + file->name() +
+            "\ncomm_modify vel yes\nneighbor 0.1 bin\nneigh_modify every 1 delay 0 check yes\n"
+            "thermo 1000000\nfix integrate all nve/sphere\ntimestep 2e-4");
+      EXPECT_STREQ(other.lammps()->force->pair_style, from_device ? "gran/eepa" : "gran/eepa/kk");
+      other.run(350 - (file == &between ? 150 : at));
+      EXPECT_LT(difference(written.particles(), other.particles()), 1e-9);
+    }
+  }
+}
+
+const Law laws[] = {
+    {"linear", "linear", "1e4 2e4 5e3 -1 0.5 restitution 0.8", "1e4 1e4 0 0 0.1 restitution 0.9"},
+    {"twisting", "linear scale 0.9", "1e4 2e4 5e3 -1 0.5 restitution 0.8 twisting marshall",
+     "1e4 1e4 0 0 0.1 restitution 0.9"},
+    {"plateau", "plateau limit_damping yes", "1e4 2e4 5e3 -1 0.5 viscous 1 1 rolling constant 0.1",
+     "5e3 1e4 5e3 -2 0.2 viscous 2 1 rolling constant 0.2"},
+    {"luding", "luding", "1e4 2e4 5e3 -1 0.5 depth 0.02 restitution 0.8 bound contact",
+     "5e3 1e4 5e3 -2 0.2 depth 0.01 restitution 0.6 bound contact"},
+    {"everything", "linear exponent 1.5",
+     "1e5 2e5 5e4 -1 0.5 kt 3e3 restitution 0.8 rolling sds 1e3 1 0.1 twisting marshall",
+     "5e4 1e5 5e4 -1 0.2 kt 1e3 restitution 0.6 rolling sds 2e3 1 0.2"},
+};
+INSTANTIATE_TEST_SUITE_P(Laws, ParallelKokkos, testing::ValuesIn(laws), [](const auto &info) {
+  return std::string(info.param.name);
+});
+
+constexpr const char *cohesive = "pair_style gran/eepa linear\n"
+                                 "pair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8\n"
+                                 "fix integrate all nve/sphere\ntimestep 1e-4";
+
+// One contact, whose sums have one order: the same bits.
+TEST(Kokkos, GivesTwoSpheresTheBitsOfTheHost)
+{
+  Variant host(false, MPI_COMM_SELF), device(true, MPI_COMM_SELF);
+  for (Simulation *simulation :
+       {static_cast<Simulation *>(&host), static_cast<Simulation *>(&device)}) {
+    simulation->open_box(3.0);
+    simulation->create(
+        {{Vec3(-0.49, 0, 0), Vec3(1, 1, 0)}, {Vec3(0.49, 0, 0), Vec3::Zero(), Vec3(3, 1, 2)}});
+    (*simulation)(cohesive);
+  }
+  for (const int steps : {1, 99, 900}) {
+    host.run(steps);
+    device.run(steps);
+    EXPECT_EQ(difference(host.particles(), device.particles()), 0.0);
+  }
+}
+
+// A particle with more contacts than any of equal size can have.
+TEST(ParallelKokkosSizes, KeepsTheHistoriesOfMany)
+{
+  std::vector<Sphere> spheres(1);
+  spheres[0].radius = 1.0;
+  for (int k = 0; k < 60; k++) {
+    // a spiral on the large sphere
+    const double z = 1.0 - (2.0 * k + 1.0) / 60.0, angle = 2.4 * k, r = std::sqrt(1.0 - z * z);
+    Sphere small;
+    small.radius = 0.1;
+    small.x = 1.095 * Vec3(r * std::cos(angle), r * std::sin(angle), z);
+    small.v = 0.2 * Vec3(-std::sin(angle), std::cos(angle), 0.1);
+    spheres.push_back(small);
+  }
+  Variant host(false), device(true);
+  for (Simulation *simulation :
+       {static_cast<Simulation *>(&host), static_cast<Simulation *>(&device)}) {
+    simulation->open_box(2.0);
+    simulation->create(spheres);
+    (*simulation)(std::string(cohesive) + "\ncompute contacts all gran/eepa/contacts");
+    simulation->run(0);
+    EXPECT_GE(simulation->compute_vector("contacts")[0], 60.0);
+    (*simulation)("neigh_modify every 3 delay 0 check no");
+    simulation->run(300);
+  }
+  EXPECT_LT(difference(host.particles(), device.particles()), 1e-9);
+}
+
+// Frozen particles, a rigid body and a wall of the host beside contacts on the device.
+TEST(ParallelKokkosCompany, HasTheMassesAndWallsOfTheHost)
+{
+  Packing packing;
+  packing.side = 4;
+  packing.speed = 1.0;
+  Variant host(false), device(true);
+  for (Simulation *simulation :
+       {static_cast<Simulation *>(&host), static_cast<Simulation *>(&device)}) {
+    simulation->open_box(packing.half() + 0.5);
+    simulation->create(packing.spheres());
+    (*simulation)(
+        "group frozen id 1 2 3\ngroup body id 40 41 44\n"
+        "group free subtract all frozen body\n"
+        "pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8\n"
+        "fix hold frozen freeze\nfix body body rigid single\nfix integrate free nve/sphere\n"
+        "fix floor all wall/gran/eepa linear coeff 1e4 2e4 5e3 -1 0.5 restitution 0.8 wall "
+        "zplane " +
+        exact(-packing.half() + 0.03) +
+        "\nfix weight free gravity 10 vector 0 0 -1\ntimestep 1e-4");
+    simulation->run(300);
+  }
+  EXPECT_GT(host.wall_force("floor").norm(), 1.0);
+  EXPECT_LT((host.wall_force("floor") - device.wall_force("floor")).norm(),
+            1e-8 * host.wall_force("floor").norm());
+  EXPECT_LT(difference(host.particles(), device.particles()), 1e-9);
+}
+
+TEST(Kokkos, NamesTheParticlesOfARunThatBlowsUp)
+{
+  Variant simulation(true);
+  Packing packing;
+  packing.side = 5;
+  packing.speed = 2.0;
+  simulation.open_box(packing.half(), 1, "p p p");
+  simulation.create(packing.spheres());
+  simulation("pair_style gran/eepa linear dtcheck off\npair_coeff * * 1e4 2e4 5e3 -1 0.3\n"
+             "fix integrate all nve/sphere\ntimestep 0.1");
+  EXPECT_TRUE(
+      refuses(simulation, "run 200",
+              "pair_style gran/eepa: atoms [0-9]+ and [0-9]+ overlap by [0-9.e+-]+ at step"));
+}
+
+TEST(Kokkos, SaysWhatItNeeds)
+{
+  Variant host(false);
+  host.open_box(1.0);
+  EXPECT_TRUE(refuses(host, "pair_style gran/eepa/kk linear",
+                      "gran/eepa/kk: KOKKOS is off; start LAMMPS with -k on"));
+
+  Variant device(true);
+  device("package kokkos neigh full newton off");
+  device.open_box(1.0, 1, "f f f", "off");
+  device.create({{Vec3(-0.49, 0, 0)}, {Vec3(0.49, 0, 0)}});
+  device(cohesive);
+  EXPECT_TRUE(
+      refuses(device, "run 0", "gran/eepa/kk: neighbor lists of KOKKOS are full and must be half"));
+}
+
+}    // namespace
+
+#endif
