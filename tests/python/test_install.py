@@ -227,6 +227,20 @@ class Install(unittest.TestCase):
         self.assertNotIn(str(ROOT), (self.work / "b" / "CMakeCache.txt").read_text())
 
 
+@unittest.skipUnless((BUILD / "CMakeCache.txt").is_file(), "started by hand: EEPA_BUILD_DIR names the build folder")
+class Warnings(unittest.TestCase):
+    def test_are_errors_where_ci_is_set_and_where_it_is_asked_for(self):
+        for ci, words, expected in (("", (), "OFF"), ("false", (), "OFF"), ("true", (), "ON"),
+                                    ("", ("-D", "EEPA_WERROR=ON"), "ON")):
+            with self.subTest(CI=ci, words=words), tempfile.TemporaryDirectory() as folder:
+                status, out = call(cmake(), "-S", ROOT, "-B", folder, "-G", cached("CMAKE_GENERATOR"), "-D",
+                                   "EEPA_WITH_LAMMPS=OFF", "-D", "BUILD_TESTING=OFF", *words, CI=ci)
+                self.assertEqual(status, 0, out)
+                self.assertIn(f"EEPA_WERROR:BOOL={expected}\n", (Path(folder) / "CMakeCache.txt").read_text())
+                commands = (Path(folder) / "compile_commands.json").read_text()
+                self.assertEqual("-Werror" in commands, expected == "ON")
+
+
 class Version(unittest.TestCase):
     def test_stands_in_one_place(self):
         self.assertRegex(VERSION, r"^\d+\.\d+\.\d+$")
