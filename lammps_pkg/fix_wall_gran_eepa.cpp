@@ -4,6 +4,7 @@
 
 #include "fix_wall_gran_eepa.h"
 
+#include "citations.h"
 #include "face_loads.h"
 #include "find_contact_owners.h"
 #include "read_mesh.h"
@@ -51,6 +52,7 @@ FixWallGranEepa::FixWallGranEepa(LAMMPS *lmp, int narg, char **arg) :
     error->warning(FLERR, "fix {} wall/gran/eepa: {}", id, warnings.front());
   style = typed.style;
   parameters = typed.parameters;
+  cite_papers(lmp, style.settings, parameters);
   coefficients = eepa::resolve(parameters, style.settings);
   typed_shape = typed.shape;
   initial_position = typed_shape.has_lo ? typed_shape.lo : typed_shape.hi;

@@ -4,6 +4,7 @@
 
 #include "pair_gran_eepa.h"
 
+#include "citations.h"
 #include "contact_history.h"
 #include "run_guards.h"
 
@@ -11,7 +12,6 @@
 #include <eepa_commands/restart_numbers.h>
 
 #include "atom.h"
-#include "citeme.h"
 #include "comm.h"
 #include "error.h"
 #include "fix.h"
@@ -30,32 +30,10 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr const char *style_name = "pair_style gran/eepa";
-
-constexpr const char *citation =
-    "pair style gran/eepa: doi:10.1007/s10035-014-0506-4, doi:10.1016/j.powtec.2015.05.051\n\n"
-    "@Article{Thakur2014,\n"
-    " author =  {S. C. Thakur and J. P. Morrissey and J. Sun and J. F. Chen and J. Y. Ooi},\n"
-    " title =   {Micromechanical analysis of cohesive granular materials using discrete\n"
-    "            element method with an adhesive elasto-plastic contact model},\n"
-    " journal = {Granular Matter},\n"
-    " year =    2014,\n"
-    " volume =  16,\n"
-    " pages =   {383}\n"
-    "}\n\n"
-    "@Article{Thakur2016,\n"
-    " author =  {S. C. Thakur and J. Y. Ooi and H. Ahmadian},\n"
-    " title =   {Scaling of discrete element model parameters for cohesionless and cohesive\n"
-    "            solid},\n"
-    " journal = {Powder Technology},\n"
-    " year =    2016,\n"
-    " volume =  293,\n"
-    " pages =   {130}\n"
-    "}\n\n";
 }    // namespace
 
 PairGranEepa::PairGranEepa(LAMMPS *lmp) : Pair(lmp), masses(lmp)
 {
-  if (lmp->citeme) lmp->citeme->add(citation);
   single_enable = 1;
   no_virial_fdotr_compute = 1;    // friction is not central, so the virial is tallied pair by pair
   centroidstressflag = CENTROID_NOTAVAIL;
@@ -144,6 +122,7 @@ void PairGranEepa::coeff(int narg, char **arg)
     error->all(FLERR, "pair_coeff {} {} for gran/eepa: {}", arg[0], arg[1], e.what());
   }
   warn(warnings);
+  cite_papers(lmp, style.settings, given);
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++) {

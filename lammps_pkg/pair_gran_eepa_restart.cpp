@@ -4,6 +4,8 @@
 
 #include "pair_gran_eepa.h"
 
+#include "citations.h"
+
 #include <eepa_commands/restart_numbers.h>
 
 #include "atom.h"
@@ -52,6 +54,7 @@ void PairGranEepa::read_restart(FILE *fp)
         eepa::Words warnings;    // printed already when the coefficients were typed
         eepa::require_valid(read, style.settings, warnings);
         parameters[pair_index(i, j)] = parameters[pair_index(j, i)] = read;
+        cite_papers(lmp, style.settings, read);
       } catch (const std::invalid_argument &e) {
         error->all(FLERR, "{}: the restart file is damaged: pair_coeff {} {}: {}", style_name, i, j,
                    e.what());

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import re
 import subprocess
 import tempfile
 from pathlib import Path
@@ -15,7 +14,7 @@ from . import evidence, workflow
 from .dimensionless import Loading, Powder
 from .options import percentages
 from .plan import Line, Speed, best, line, series
-from .results import PRELOAD
+from .results import PRELOAD, costs
 
 INFILES = Path(__file__).resolve().parents[2] / "examples" / "scale_collapse"
 
@@ -119,16 +118,14 @@ def _errors_of_coefficients(path: Path) -> Dict[str, float]:
 
 
 def measure_speed(lmp: Path) -> float:
-    """Particles times steps in a second, from a specimen of some thousand particles that is pressed."""
+    """Particles times steps in a second of a core, from a specimen of some thousand particles that is pressed."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([str(lmp), "-in", str(INFILES / "in.confined"), "-log", "log.lammps", "-screen", "none",
                         "-var", "files", str(INFILES), "-var", "d", "2e-3", "-var", "level", "6e3", "-var",
                         "hold", "1e-3"], cwd=folder, check=True, stdin=subprocess.DEVNULL)
-        loops = re.findall(r"^Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms",
-                           (Path(folder) / "log.lammps").read_text(encoding="utf-8"), re.MULTILINE)
-    # The last ones are of the dense packing, with its contacts.
-    seconds, steps, particles = max(loops[-4:], key=lambda loop: int(loop[1]))
-    return int(steps) * int(particles) / float(seconds)
+        cost = costs(Path(folder))
+    # without the making of the specimen, in which few particles touch
+    return cost["particles"] * cost["test_steps"] / cost["test_seconds"]
 
 
 def text(lines: Sequence[Line], speed: Speed) -> str:
