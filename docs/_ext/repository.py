@@ -9,9 +9,10 @@ from pathlib import Path
 def links_of_files(app, docname, source):
     """In Markdown a link may name a folder: its page is the README there, or the only page. The repository's own README
     is for those who look at files; here its place is taken by the first page."""
-    if not app.env.doc2path(docname).endswith(".md"):
+    page = Path(app.env.doc2path(docname))
+    if page.suffix != ".md":
         return
-    here = Path(app.env.doc2path(docname)).parent
+    here = page.parent
     root = Path(app.srcdir)
 
     def link(match):

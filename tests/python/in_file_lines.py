@@ -53,7 +53,8 @@ def cell(lines: List[str]) -> List[str]:
             "create_box 2 cell"]
     made += [f"create_atoms {kind} single {x} 0 {z}" for kind, x, z in PARTICLES]
     made += ["set group all diameter 1.0e-3 density 2000", "neighbor 1.0e-4 bin", "timestep 1.0e-7",
-             "pair_style gran/eepa linear", "pair_coeff * * 5e3 1e4 5e3 -1e-4 0.5", "fix move all nve/sphere"]
+             *(["pair_style gran/eepa luding", "pair_coeff * * 5e3 1e4 5e3 -1e-4 0.5 depth 0.05"] if "depth" in text else
+               ["pair_style gran/eepa linear", "pair_coeff * * 5e3 1e4 5e3 -1e-4 0.5"]), "fix move all nve/sphere"]
     for pattern, command in GIVEN.items():
         kind, name = command.split()[:2]
         if re.search(pattern, text) and not re.search(rf"^{kind}\s+{name}\b", text, re.M):
@@ -110,5 +111,5 @@ def run(lmp: str, script: str, folder: Path) -> str:
                           env={**os.environ, "OMP_NUM_THREADS": "1"})
     if done.returncode == 0:
         return ""
-    log = (folder / "log.lines").read_text(errors="replace").splitlines()
-    return "\n".join(done.stdout.splitlines()[-5:] + log[-5:])
+    log = (folder / "log.lines").read_text(errors="replace")
+    return log[log.find("ERROR"):].split("\n\n")[0] if "ERROR" in log else done.stdout[-1000:] + log[-1000:]

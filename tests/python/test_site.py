@@ -80,10 +80,6 @@ class Site(unittest.TestCase):
                 if parts.fragment and file.suffix == ".html":
                     self.assertIn(unquote(parts.fragment), self.pages[file].names)
 
-    def test_links_to_commands_of_this_package_do_not_lead_to_lammps(self):
-        for path, (_, target) in self.each("links"):
-            self.assertFalse("docs.lammps.org" in target and "eepa" in target, f"{self.name(path)}: {target}")
-
     def test_katex_reads_all_formulas(self):
         formulas = self.each("formulas")
         self.assertGreater(len(formulas), 200)
