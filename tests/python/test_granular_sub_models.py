@@ -26,7 +26,7 @@ comm_modify vel yes
 region box block -5 5 -2 2 -2 2
 create_box 2 box
 """
-SPHERES = """create_atoms {types[0]} single -1 0 {z}
+SPHERES = """create_atoms {types[0]} single -1.5 0 {z}
 create_atoms {types[1]} single {x2} 0 {z}
 set atom 1 diameter {d[0]}
 set atom 2 diameter {d[1]}
@@ -86,10 +86,10 @@ def forces(script, ranks=1):
 
 def pair_script(style, d=(1.0, 1.0), types=(1, 1), newton="on", slide=0, swap=False, steps=900, after=""):
     z, size = 0.3, 0.5 * sum(d)
-    head = HEAD.format(newton=newton) + SPHERES.format(types=types, d=d, z=z, x2=repr(-1 + size))
+    head = HEAD.format(newton=newton) + SPHERES.format(types=types, d=d, z=z, x2=repr(-1.5 + size))
     move = MOVE_PAIR
     if swap:    # the second particle to the left of the first
-        head = HEAD.format(newton=newton) + SPHERES.format(types=types, d=d, z=z, x2=repr(-1 - size))
+        head = HEAD.format(newton=newton) + SPHERES.format(types=types, d=d, z=z, x2=repr(-1.5 - size))
         move = move.replace("v_x2 ", "v_x3 ").replace("v_vx2 ", "v_vx3 ")
         move = "variable x3 equal -v_gap+v_drift\nvariable vx3 equal -v_vgap+v_vdrift\n" + move
     return head + style + "\n" + RUN.format(size=size, slide=slide, move=move, watched=2) + f"run {steps}\n" + after
@@ -205,7 +205,7 @@ class SubModels(unittest.TestCase):
         self.refused(f"eepa 1e4 2e4 0 3 0 NULL {end}", "model eepa: f0 = 3")
         self.refused(f"eepa 1e4 2e4 0 0 -3 NULL {end}", "model eepa: damping = -3.*>= 0")
         self.refused(f"eepa 1e4 2e4 0 0 0 0 {end}", "model eepa: scale d_ref = 0")
-        self.refused(f"luding 1e4 2e4 0 0 1.5 0 NULL {end}", "model luding: depth phi_f = 1.5")
+        self.refused(f"luding 1e4 2e4 0 0 1.5 0 NULL {end}", "model luding: depth = 1.5.*<= 1")
         self.refused(f"luding 1e4 1e4 0 0 0.1 0 NULL {end}", "model luding: .*k2")
 
     def test_dampings_of_elastic_contacts_are_refused(self):
