@@ -193,6 +193,23 @@ class SubModels(unittest.TestCase):
                 self.assertGreater(np.abs(own[20:, 2]).min(), 5)
                 self.assert_same(sub[20:], own[20:], 1e-6)
 
+    def test_heat_and_other_models_of_granular_go_with_them(self):
+        for law, (model, _, _) in LAWS.items():
+            with self.subTest(law=law):
+                script = pair_script(f"pair_style granular\npair_coeff * * {model} 0 NULL damping velocity tangential "
+                                     "linear_history 1e4 0 0.5 rolling sds 10 0.1 0.2 twisting marshall heat area 10",
+                                     steps=100)
+                script = script.replace("create_atoms", "fix p all property/atom temperature heatflow ghost yes\n"
+                                        "create_atoms", 1)
+                script = script.replace("group two", "set atom 1 temperature 100\nset atom 2 temperature 0\n"
+                                        "fix h all heat/flow constant 1\ncompute t all property/atom temperature\n"
+                                        "compute s all reduce sum c_t\ncompute m all reduce max c_t\ngroup two")
+                script = script.replace("v_fx v_fy v_fz", "v_fx c_s c_m")
+                rows = forces(script)
+                self.assertTrue((np.abs(rows[:, 2] - 100) < 1e-10).all())
+                self.assertTrue((np.diff(rows[:, 3]) <= 0).all())
+                self.assertLess(rows[-1, 3], 99.9)
+
     def refused(self, style, words):
         done = run(pair_script("pair_style granular\npair_coeff * * " + style, steps=0))
         self.assertNotEqual(done.returncode, 0)
