@@ -26,7 +26,7 @@ comm_modify vel yes
 region box block -5 5 -2 2 -2 2
 create_box 2 box
 """
-SPHERES = """create_atoms {types[0]} single -1 0 {z}
+SPHERES = """create_atoms {types[0]} single -1.5 0 {z}
 create_atoms {types[1]} single {x2} 0 {z}
 set atom 1 diameter {d[0]}
 set atom 2 diameter {d[1]}
@@ -86,10 +86,10 @@ def forces(script, ranks=1):
 
 def pair_script(style, d=(1.0, 1.0), types=(1, 1), newton="on", slide=0, swap=False, steps=900, after=""):
     z, size = 0.3, 0.5 * sum(d)
-    head = HEAD.format(newton=newton) + SPHERES.format(types=types, d=d, z=z, x2=repr(-1 + size))
+    head = HEAD.format(newton=newton) + SPHERES.format(types=types, d=d, z=z, x2=repr(-1.5 + size))
     move = MOVE_PAIR
     if swap:    # the second particle to the left of the first
-        head = HEAD.format(newton=newton) + SPHERES.format(types=types, d=d, z=z, x2=repr(-1 - size))
+        head = HEAD.format(newton=newton) + SPHERES.format(types=types, d=d, z=z, x2=repr(-1.5 - size))
         move = move.replace("v_x2 ", "v_x3 ").replace("v_vx2 ", "v_vx3 ")
         move = "variable x3 equal -v_gap+v_drift\nvariable vx3 equal -v_vgap+v_vdrift\n" + move
     return head + style + "\n" + RUN.format(size=size, slide=slide, move=move, watched=2) + f"run {steps}\n" + after
@@ -152,11 +152,11 @@ class SubModels(unittest.TestCase):
                 sub = self.both(law)[0]
                 whole = forces(sub)
                 # a step in which the pair remembers more than its overlap
-                stop, file = 230, f"{folder}/half.restart"
+                stop, file = 290, f"{folder}/half.restart"
                 first = sub.replace("run 900", f"run {stop}\nwrite_restart {file}")
                 forces(first)
                 begin, end = sub.index("units lj"), sub.index("neighbor 0.05")
-                second = (sub[:begin] + f"read_restart {file}\ncomm_modify vel yes\n" + sub[end:]).replace("run 900", "run 670")
+                second = (sub[:begin] + f"read_restart {file}\ncomm_modify vel yes\n" + sub[end:]).replace("run 900", f"run {900 - stop}")
                 self.assert_same(forces(second)[1:], whole[stop + 1:], 1e-13)
 
     def test_wall_has_the_forces_of_wall_gran_eepa(self):
@@ -189,9 +189,26 @@ class SubModels(unittest.TestCase):
             with self.subTest(law=law):
                 sub = f"pair_style granular\npair_coeff * * {model} 0 NULL damping velocity tangential linear_history 1e7 0 0.5"
                 own = f"pair_style gran/eepa {name} dtcheck off\npair_coeff * * {numbers.replace('-5 0', '-5 0.5')} kt 1e7"
-                sub, own = (forces(pair_script(style, slide=0.01, steps=150)) for style in (sub, own))
+                sub, own = (forces(pair_script(style, slide=0.01, steps=100)) for style in (sub, own))
                 self.assertGreater(np.abs(own[20:, 2]).min(), 5)
                 self.assert_same(sub[20:], own[20:], 1e-6)
+
+    def test_heat_and_other_models_of_granular_go_with_them(self):
+        for law, (model, _, _) in LAWS.items():
+            with self.subTest(law=law):
+                script = pair_script(f"pair_style granular\npair_coeff * * {model} 0 NULL damping velocity tangential "
+                                     "linear_history 1e4 0 0.5 rolling sds 10 0.1 0.2 twisting marshall heat area 10",
+                                     steps=100)
+                script = script.replace("create_atoms", "fix p all property/atom temperature heatflow ghost yes\n"
+                                        "create_atoms", 1)
+                script = script.replace("group two", "set atom 1 temperature 100\nset atom 2 temperature 0\n"
+                                        "fix h all heat/flow constant 1\ncompute t all property/atom temperature\n"
+                                        "compute s all reduce sum c_t\ncompute m all reduce max c_t\ngroup two")
+                script = script.replace("v_fx v_fy v_fz", "v_fx c_s c_m")
+                rows = forces(script)
+                self.assertTrue((np.abs(rows[:, 2] - 100) < 1e-10).all())
+                self.assertTrue((np.diff(rows[:, 3]) <= 0).all())
+                self.assertLess(rows[-1, 3], 99.9)
 
     def refused(self, style, words):
         done = run(pair_script("pair_style granular\npair_coeff * * " + style, steps=0))
@@ -205,7 +222,7 @@ class SubModels(unittest.TestCase):
         self.refused(f"eepa 1e4 2e4 0 3 0 NULL {end}", "model eepa: f0 = 3")
         self.refused(f"eepa 1e4 2e4 0 0 -3 NULL {end}", "model eepa: damping = -3.*>= 0")
         self.refused(f"eepa 1e4 2e4 0 0 0 0 {end}", "model eepa: scale d_ref = 0")
-        self.refused(f"luding 1e4 2e4 0 0 1.5 0 NULL {end}", "model luding: depth phi_f = 1.5")
+        self.refused(f"luding 1e4 2e4 0 0 1.5 0 NULL {end}", "model luding: depth = 1.5.*<= 1")
         self.refused(f"luding 1e4 1e4 0 0 0.1 0 NULL {end}", "model luding: .*k2")
 
     def test_dampings_of_elastic_contacts_are_refused(self):
