@@ -183,6 +183,7 @@ void FixWallGranEepa::init()
   dt = update->dt;
   require_force_once_a_step(lmp, style_name());
   warn_of_rotation();
+  warn_of_device();
   if (region_shape) region_shape->set_region(find_region());
   masses.init("fix wall/gran/eepa");
   const bool kept = keep_ledger;
@@ -209,6 +210,17 @@ void FixWallGranEepa::warn_of_rotation()
   const std::string advice = advice_on_rotation(lmp, parameters.mu);
   if (advice.empty()) return;
   rotation_warned = true;
+  error->warning(FLERR, "{}: {}", style_name(), advice);
+}
+
+void FixWallGranEepa::warn_of_device()
+{
+  if (comm->me != 0) return;
+  for (const auto *wall : find_eepa_walls(modify))
+    if (wall->device_warned) return;
+  const std::string advice = advice_on_device(lmp);
+  if (advice.empty()) return;
+  device_warned = true;
   error->warning(FLERR, "{}: {}", style_name(), advice);
 }
 

@@ -143,6 +143,7 @@ class FixWallGranEepa : public Fix {
   double load_now = 0.0;          // external force at the last force call
   double load_stiffness = 0.0;    // largest stiffness of a contact with the platen, on all ranks
   bool platen_warned = false, rotation_warned = false, time_step_warned = false;
+  bool device_warned = false;
   bigint checked_particles = 0;    // number of particles when the time step was checked
 
   double dt = 0.0;
@@ -205,6 +206,7 @@ class FixWallGranEepa : public Fix {
   void require_walls_in_the_box() const;
   std::string style_name() const;
   void warn_of_rotation();
+  void warn_of_device();
   void check_time_step();
   void complain(const std::string &message);
   /// The largest stable time step of particles on the wall. Collective.

@@ -6,6 +6,7 @@
 #include "exceptions.h"
 #include "input.h"
 #include "lammps.h"
+#include "library.h"
 
 #include <mpi.h>
 
@@ -53,6 +54,7 @@ int main(int argc, char **argv)
   } catch (LAMMPSAbortException &abort) {    // one rank only failed
     MPI_Abort(abort.get_universe(), 1);
   } catch (LAMMPSException &) {    // all ranks failed, and LAMMPS printed the message
+    lammps_kokkos_finalize();
     MPI_Barrier(MPI_COMM_WORLD);
     MPI_Finalize();
     return 1;
@@ -60,6 +62,7 @@ int main(int argc, char **argv)
     std::fprintf(stderr, "Exception: %s\n", failure.what());
     MPI_Abort(MPI_COMM_WORLD, 1);
   }
+  lammps_kokkos_finalize();    // nothing where KOKKOS was not in use
   MPI_Barrier(MPI_COMM_WORLD);
   MPI_Finalize();
   return 0;

@@ -9,6 +9,7 @@
 #include "input.h"
 #include "lammps.h"
 #include "modify.h"
+#include "pair.h"
 #include "update.h"
 #include "utils.h"
 
@@ -119,6 +120,15 @@ std::string LAMMPS_NS::advice_on_heat(LAMMPS *lmp)
                          "change only by what other fixes bring",
                          fix->id, fix->style);
   return "";
+}
+
+std::string LAMMPS_NS::advice_on_device(LAMMPS *lmp)
+{
+  const Pair *pair = lmp->force->pair_match("^gran/eepa", 0, 1);
+  if (!pair || pair->execution_space != Device) return "";
+  return "this wall has no version for KOKKOS: every particle moves from the device to the host "
+         "and "
+         "back in every step";
 }
 
 std::string LAMMPS_NS::advice_on_rerun(LAMMPS *lmp)

@@ -33,6 +33,9 @@ std::string advice_on_heat(LAMMPS *);
 /// \return warning of the command rerun, "" in any other command
 std::string advice_on_rerun(LAMMPS *);
 
+/// Advice where particles are on a device and a wall is on the host, "" otherwise.
+std::string advice_on_device(LAMMPS *);
+
 }    // namespace LAMMPS_NS
 
 #endif

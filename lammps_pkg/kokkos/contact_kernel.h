@@ -43,7 +43,8 @@ template <class DeviceType, class ContactLaw, bool tallies> class ContactKernel 
     const bigint first = s.rows.first(i);
     const double x = s.x(i, 0), y = s.x(i, 1), z = s.x(i, 2), radius = s.radius(i);
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    if (!s.several_write) {
+    const bool several_write = s.on_gpu || s.several_write;
+    if (!several_write) {
       // forces are added in the order of the host's style
       for (int k = 0; k < 3; k++) {
         force[k] = s.f(i, k);
@@ -67,7 +68,7 @@ template <class DeviceType, class ContactLaw, bool tallies> class ContactKernel 
       evaluate(i, j, factor, first + jj, force, torque, sums);
     }
     if (!touches_some) return;
-    if (s.several_write) {
+    if (several_write) {
       s.add_wrench(i, force, torque);
     } else {
       for (int k = 0; k < 3; k++) {

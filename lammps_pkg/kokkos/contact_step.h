@@ -64,6 +64,7 @@ struct DeepContact {
 template <class DeviceType> struct ContactStep {
   using Arrays = ArrayTypes<DeviceType>;
   using Numbers = Kokkos::View<double *, DeviceType>;
+  static constexpr bool on_gpu = ExecutionSpaceFromDevice<DeviceType>::space == Device;
 
   int inum = 0;    // of the neighbour list
   typename Arrays::t_int_1d ilist, numneigh;
@@ -130,7 +131,7 @@ template <class DeviceType> struct ContactStep {
   /// Adds to a number that other threads may be adding to.
   template <class T> KOKKOS_INLINE_FUNCTION void add(T &to, double more) const
   {
-    if (several_write)
+    if (on_gpu || several_write)
       Kokkos::atomic_add(&to, static_cast<T>(more));
     else
       to += more;

@@ -3,6 +3,8 @@
 // One program for every number of ranks: MPI starts once, rank 0 reports, and the other ranks print
 // only their failures.
 
+#include "library.h"
+
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -43,6 +45,7 @@ int main(int argc, char **argv)
   const int mine = RUN_ALL_TESTS();
   int worst;
   MPI_Allreduce(&mine, &worst, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  lammps_kokkos_finalize();    // nothing where KOKKOS was not in use
   MPI_Finalize();
   return worst;
 }
