@@ -32,7 +32,8 @@ bool add_own_folder_to_plugin_path(const char *program)
   if (!std::filesystem::exists(folder / "eepaplugin.so", failed)) {
     const std::filesystem::path installed = (folder / EEPA_PLUGIN_FOLDER).lexically_normal();
     if (!std::filesystem::exists(installed / "eepaplugin.so", failed)) {
-      std::fprintf(stderr, "ERROR: eepaplugin.so must lie beside %s or in %s\n", self.c_str(), installed.c_str());
+      std::fprintf(stderr, "ERROR: eepaplugin.so must lie beside %s or in %s\n", self.c_str(),
+                   installed.c_str());
       return false;
     }
     folder = installed;
