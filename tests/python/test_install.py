@@ -265,15 +265,20 @@ class Version(unittest.TestCase):
                 self.assertTrue(reference[key], key)
             self.assertTrue(all(set(author) == {"family-names", "given-names"} for author in reference["authors"]))
 
-    def test_citation_has_the_articles_of_the_readme(self):
-        readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
-        for reference in self.citation()["references"]:
-            self.assertIn(reference["title"], readme)
-            for author in reference["authors"]:
-                self.assertIn(f"{author['given-names']} {author['family-names']}", readme)
+    def test_citation_has_the_articles_that_lammps_prints(self):
+        printed = " ".join((ROOT / "lammps_pkg" / "citations.cpp").read_text(encoding="utf-8")
+                           .replace('"', "").replace("\\n", "").split())
+        references = self.citation()["references"]
+        self.assertEqual(printed.count("title = "), len(references))
+        for reference in references:
+            self.assertIn("title = {" + reference["title"] + "}", printed)
+            authors = " and ".join(f"{author['given-names']} {author['family-names']}"
+                                   for author in reference["authors"])
+            self.assertIn("author = {" + authors + "}", printed)
+            self.assertIn(f"year = {reference['year']}", printed)
             if "start" in reference:
-                self.assertIn(f"{reference['journal']} {reference['volume']} ({reference['year']}) "
-                              f"{reference['start']}", readme)
+                self.assertIn(f"journal = {{{reference['journal']}}}, year = {reference['year']}, "
+                              f"volume = {reference['volume']}, pages = {{{reference['start']}}}", printed)
 
 
 if __name__ == "__main__":
