@@ -56,7 +56,7 @@ constexpr int count = sizeof(instruction_sets) / sizeof(InstructionSet);
 const InstructionSet &choose(LAMMPS *lmp)
 {
   const char *named = std::getenv("EEPA_LOOPS");
-  if (!named) {
+  if (!named || !*named) {
     const InstructionSet *set = instruction_sets;
     while (!set->runs_here()) set++;
     return *set;

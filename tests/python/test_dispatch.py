@@ -26,9 +26,8 @@ def cached(name: str) -> str:
 DISPATCHES = bool(LMP) and cached("EEPA_ARCH") == "dispatch"
 
 
-def runs_v3() -> bool:
-    flags = set(re.search("^flags.*$", Path("/proc/cpuinfo").read_text(), re.MULTILINE).group().split())
-    return {"avx2", "bmi1", "bmi2", "fma", "f16c", "movbe"} <= flags and bool({"abm", "lzcnt"} & flags)
+def has_avx2() -> bool:
+    return bool(re.search(r"^flags.* avx2\b", Path("/proc/cpuinfo").read_text(), re.MULTILINE))
 
 
 def run(folder: Path, script: str, loops: str | None, start=()) -> subprocess.CompletedProcess:
@@ -161,7 +160,7 @@ class Choice(unittest.TestCase):
                       self.refused("x86-64-v3", old))
 
 
-@unittest.skipUnless(DISPATCHES and runs_v3(), "needs EEPA_ARCH=dispatch and a processor with AVX2")
+@unittest.skipUnless(DISPATCHES and has_avx2(), "needs EEPA_ARCH=dispatch and a processor with AVX2")
 class Bits(unittest.TestCase):
     def test_the_best_instruction_set_is_taken(self):
         said, _ = outcome(None, ["linear_none_free"], (1,), 1)
@@ -200,7 +199,7 @@ class Separation(unittest.TestCase):
     ENTRY = "eepa_make_engine_x86_64_v3"
     SECTION = ".text_x86_64_v3"
     # Instructions with VEX prefix: names that begin with v, and those of BMI; movbe and lzcnt.
-    LATER = re.compile(r"\t(?:v[a-z]|andn|bextr|bls[ir]|blsmsk|bzhi|mulx|p(?:dep|ext)\b|rorx|s(?:ar|hl|hr)x|movbe|lzcnt)")
+    LATER = re.compile(r"\t(?:v[a-z]|(?:andn|bextr|bls[ir]|blsmsk|bzhi|mulx|pdep|pext|rorx|s(?:ar|hl|hr)x|movbe|lzcnt)[lq]?\b)")
 
     @staticmethod
     def said(*command) -> str:
@@ -217,7 +216,7 @@ class Separation(unittest.TestCase):
         self.assertEqual(len(symbols), 1)
         entry = int(symbols[0].split()[0], 16)
         header = re.search(rf"{re.escape(self.SECTION)}\s+(\w+)\s+(\w+)", self.said("objdump", "-h", plugin))
-        size, begin = (int(word, 16) for word in header.groups())
+        size, begin = (int(word, 16) for word in header.groups()) if header else (0, 0)
         section, later, entered = None, {}, set()
         for line in self.said("objdump", "-d", "--no-show-raw-insn", plugin).splitlines():
             if line.startswith("Disassembly of section "):
