@@ -83,6 +83,9 @@ Simulation::Simulation(MPI_Comm comm, const std::string &log,
   arguments.insert(arguments.end(), more.begin(), more.end());
   lammps_ = std::make_unique<LAMMPS>(arguments, comm);
   register_eepa_styles(lammps_.get());
+  // fix nve/sphere/kk makes one step of two half steps, except at the end of a run, so that a run cut in two would have
+  // other bits; not where there is a limit of time
+  if (!more.empty()) lammps_->input->one("timer timeout 99:00:00");
 }
 
 Simulation::~Simulation() = default;
