@@ -83,6 +83,13 @@ template <class DeviceType> void PairGranEepaKokkos<DeviceType>::init_style()
                "half`, or "
                "-pk kokkos neigh half when LAMMPS starts",
                style_name);
+  if (neighbor->style != Neighbor::BIN)
+    error->all(FLERR,
+               "{}: the style of command neighbor must be bin, not nsq, multi or multi/old: with "
+               "KOKKOS, LAMMPS has no "
+               "other lists for particles of different sizes",
+               style_name);
+  require_all_pairs_of_types();
   // Particles go to other processors with histories that are on the host then. LAMMPS would change to this itself, with
   // a warning for each fix.
   lmp->kokkos->exchange_comm_classic = 1;
@@ -94,6 +101,24 @@ template <class DeviceType> void PairGranEepaKokkos<DeviceType>::init_style()
   constexpr bool on_device = std::is_same_v<DeviceType, LMPDeviceType>;
   request->set_kokkos_host(!on_device);
   request->set_kokkos_device(on_device);
+}
+
+/// Stops where pair_style hybrid would leave out pairs of types: LAMMPS can not do that in a list of KOKKOS for particles
+/// of different sizes.
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::require_all_pairs_of_types() const
+{
+  if (!utils::strmatch(force->pair_style, "^hybrid")) return;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (setflag[i][j] || (setflag[i][i] && setflag[j][j])) continue;
+      error->all(
+          FLERR,
+          "{}: pair_style {} gives types {} {} to another sub-style, and LAMMPS has no such "
+          "neighbor lists "
+          "with KOKKOS: give all pairs of types to gran/eepa/kk, or use gran/eepa without suffix",
+          style_name, force->pair_style, i, j);
+    }
+  }
 }
 
 template <class DeviceType> ContactHistory *PairGranEepaKokkos<DeviceType>::make_history(int values)

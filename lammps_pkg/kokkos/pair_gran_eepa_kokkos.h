@@ -42,6 +42,7 @@ template <class DeviceType> class PairGranEepaKokkos : public PairGranEepa {
  private:
   template <class T> using DeviceArray = Kokkos::View<T *, DeviceType>;
 
+  void require_all_pairs_of_types() const;
   void send_coefficients();
   void send_bodies();
   void allocate_tallies_of_atoms();

@@ -186,12 +186,11 @@ INSTANTIATE_TEST_SUITE_P(Laws, ParallelKokkos, testing::ValuesIn(laws), [](const
   return std::string(info.param.name);
 });
 
-const std::string cohesive_law = "pair_style gran/eepa linear\n"
-                                 "pair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8";
-const std::string cohesive = cohesive_law + "\nfix integrate all nve/sphere\ntimestep 1e-4";
+const std::string cohesive = "pair_style gran/eepa linear\n"
+                             "pair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8\n"
+                             "fix integrate all nve/sphere\ntimestep 1e-4";
 
-// One contact, whose sums have one order: the same bits. LAMMPS's integrator for KOKKOS makes one step of two half
-// steps, so the host's is taken.
+// One contact, whose sums have one order: the same bits.
 TEST(Kokkos, GivesTwoSpheresTheBitsOfTheHost)
 {
   Variant host(false, MPI_COMM_SELF), device(true, MPI_COMM_SELF);
@@ -200,18 +199,13 @@ TEST(Kokkos, GivesTwoSpheresTheBitsOfTheHost)
     simulation->open_box(3.0);
     simulation->create(
         {{Vec3(-0.49, 0, 0), Vec3(1, 1, 0)}, {Vec3(0.49, 0, 0), Vec3::Zero(), Vec3(3, 1, 2)}});
+    (*simulation)(cohesive);
   }
-  host("fix integrate all nve/sphere\ntimestep 1e-4");
-  device("suffix off\nfix integrate all nve/sphere\ntimestep 1e-4\nsuffix on");
-  for (Simulation *simulation :
-       {static_cast<Simulation *>(&host), static_cast<Simulation *>(&device)})
-    (*simulation)(cohesive_law);
   for (const int steps : {1, 99, 900}) {
     host.run(steps);
     device.run(steps);
     EXPECT_EQ(difference(host.particles(), device.particles()), 0.0);
   }
-  EXPECT_STREQ(device.lammps()->force->pair_style, "gran/eepa/kk");
 }
 
 // A particle with more contacts than any of equal size can have.
@@ -291,6 +285,22 @@ TEST(Kokkos, SaysWhatItNeeds)
   host.open_box(1.0);
   EXPECT_TRUE(refuses(host, "pair_style gran/eepa/kk linear",
                       "gran/eepa/kk: KOKKOS is off; start LAMMPS with -k on"));
+
+  Variant two_styles(true);
+  two_styles.open_box(1.0, 2);
+  two_styles.create({{Vec3(-0.49, 0, 0)}, {Vec3(0.49, 0, 0)}});
+  two_styles("pair_style hybrid gran/eepa linear gran/eepa plateau\n"
+             "pair_coeff 1 * gran/eepa 1 1e4 2e4 5e3 -1 0.3\n"
+             "pair_coeff 2 2 gran/eepa 2 1e4 2e4 5e3 -1 0.3");
+  EXPECT_TRUE(refuses(two_styles, "run 0",
+                      "gran/eepa/kk: pair_style hybrid/kk gives types 2 2 to another sub-style"));
+
+  Variant all_pairs(true);
+  all_pairs.open_box(1.0);
+  all_pairs.create({{Vec3(-0.49, 0, 0)}, {Vec3(0.49, 0, 0)}});
+  all_pairs(cohesive + "\nneighbor 0.1 nsq");
+  EXPECT_TRUE(
+      refuses(all_pairs, "run 0", "gran/eepa/kk: the style of command neighbor must be bin"));
 
   Variant device(true);
   device("package kokkos neigh full newton off");

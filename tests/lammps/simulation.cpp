@@ -85,6 +85,9 @@ Simulation::Simulation(MPI_Comm comm, const std::string &log,
 #ifndef EEPA_STYLES_IN_LAMMPS
   register_eepa_styles(lammps_.get());
 #endif
+  // fix nve/sphere/kk makes one step of two half steps, except at the end of a run, so that a run cut in two would have
+  // other bits; not where there is a limit of time
+  if (!more.empty()) lammps_->input->one("timer timeout 99:00:00");
 }
 
 Simulation::~Simulation() = default;
