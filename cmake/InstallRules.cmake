@@ -90,7 +90,8 @@ install(DIRECTORY examples DESTINATION "${_eepa_data}" COMPONENT examples PATTER
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION "${_eepa_doc}" COMPONENT doc)
 # What Debian expects beside documentation.
 install(FILES cmake/debian_copyright DESTINATION "${_eepa_doc}" RENAME copyright COMPONENT doc)
-install(DIRECTORY docs DESTINATION "${_eepa_doc}" COMPONENT doc)
+install(DIRECTORY docs DESTINATION "${_eepa_doc}" COMPONENT doc
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.rst" PATTERN "_*" EXCLUDE)
 install(DIRECTORY lammps_pkg/doc/ DESTINATION "${_eepa_doc}" COMPONENT doc
   FILES_MATCHING PATTERN "*.rst" PATTERN "*.png" PATTERN "*.svg")
 

@@ -1,6 +1,6 @@
 # `cpack` in the build folder makes a Debian package that needs nothing but Debian: lmp-eepa with its LAMMPS, the
 # plugin, coarsen, documentation, examples. It is for the Debian release and, with EEPA_ARCH, the processors that
-# it was compiled for: a package for others is made with -D EEPA_ARCH=baseline.
+# it was compiled for: a package for others is made with -D EEPA_ARCH=baseline or dispatch.
 
 include_guard(GLOBAL)
 

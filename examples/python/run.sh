@@ -4,14 +4,14 @@
 #   ./run.sh                                  # compress.py
 #   ./run.sh jupyter notebook compress.ipynb  # any other program
 #
-# EEPA_BUILD_DIR names another build folder, PYTHON another Python.
+# BUILD_DIR names another build folder, PYTHON another Python.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
-build=${EEPA_BUILD_DIR:-$root/build}
+build=${EEPA_BUILD_DIR:-${BUILD_DIR:-$root/build}}
 if [ ! -f "$build/eepaplugin.so" ] || [ ! -x "$build/lmp" ]; then
-    echo "run.sh: $build has no eepaplugin.so and lmp: run scripts/setup.sh, or set EEPA_BUILD_DIR" >&2
+    echo "run.sh: $build has no eepaplugin.so and lmp: run scripts/setup.sh, or set BUILD_DIR" >&2
     exit 1
 fi
 
