@@ -9,9 +9,8 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "_ext"))
 
 project = "eepa"
-version_file = HERE.parent / "VERSION"
-release = version_file.read_text().strip() if version_file.exists() else ""
-html_title = f"eepa {release}".strip()
+release = (HERE.parent / "VERSION").read_text().strip()
+html_title = f"eepa {release}"
 
 needs_sphinx = "5.1"             # include_patterns
 root_doc = "docs/index"

@@ -24,19 +24,6 @@ def links_of_files(app, docname, source):
     source[0] = re.sub(r"\]\(([\w./-]+)\)", link, source[0])
 
 
-def pages_to_come(app, docname, source):
-    """A pattern of a table of contents may match nothing yet."""
-    here = Path(app.env.doc2path(docname)).parent
-
-    def matches(line):
-        name = line.strip()
-        folder = Path(app.srcdir) if name.startswith("/") else here
-        return any(any(folder.glob(name.lstrip("/") + suffix)) for suffix in (".rst", ".md"))
-    if ":glob:" in source[0]:
-        source[0] = "\n".join(line for line in source[0].split("\n")
-                              if not re.fullmatch(r"   \S*\*\S*", line) or matches(line))
-
-
 def open_at_top(app, error):
     """The site's first page is in docs/; whoever opens the folder finds it."""
     if not error and app.builder.name == "html":
@@ -48,6 +35,5 @@ def open_at_top(app, error):
 
 def setup(app):
     app.connect("source-read", links_of_files)
-    app.connect("source-read", pages_to_come)
     app.connect("build-finished", open_at_top)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
