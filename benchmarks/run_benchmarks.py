@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -26,7 +27,7 @@ except ImportError as missing:
 from coarsen.measure import BadRun  # noqa: E402
 from coarsen.workflow import NotInstalled, find_lmp  # noqa: E402
 
-from bench import (cases, cost, diameters, instructions, kernel, machine,  # noqa: E402
+from bench import (cases, cost, diameters, instructions, kernel, liggghts, machine,  # noqa: E402
                    many_particles, many_types, memory, report, scaling, walls)
 from bench.lammps import Program, RunFailed, has_pair_style, usable_cores  # noqa: E402
 from bench.lammps_log import BadLog  # noqa: E402
@@ -45,6 +46,7 @@ class Session:
     description: Mapping[str, object]    #: of machine, compiler, LAMMPS
     quick: bool
     rounds: int
+    liggghts: Optional[Path] = None    #: LIGGGHTS-INL, if there is one
 
     def write(self, name: str, rows: Sequence[Dict], text: str) -> None:
         """The rows of every run, and the table, which is also printed."""
@@ -162,6 +164,19 @@ def run_walls(s: Session) -> None:
     s.write("walls", rows, walls.table(rows))
 
 
+def run_liggghts(s: Session) -> None:
+    """beside LIGGGHTS-INL (--liggghts), at 4,096 and 49,152 particles"""
+    if s.liggghts is None:
+        print("no --liggghts PROGRAM: left out")
+        return
+    cell = 500 if s.quick else 4096
+    sizes = [cases.dense(s.program, s.work, cell, copies) for copies in ((1, 1, 1), (2, 2, 3))]
+    if s.quick:
+        sizes = [size.lasting(50, 200) for size in sizes]
+    rows = liggghts.measure(s.program, s.liggghts, sizes, s.rounds, s.work)
+    s.write("liggghts", rows, liggghts.table(rows))
+
+
 PARTS: Dict[str, Callable[[Session], None]] = {
     "kernel": run_kernel,
     "cost": run_cost,
@@ -172,6 +187,7 @@ PARTS: Dict[str, Callable[[Session], None]] = {
     "many_particles": run_many_particles,
     "types": run_types,
     "walls": run_walls,
+    "liggghts": run_liggghts,
 }
 
 
@@ -187,6 +203,8 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
                         help="how often each style is run (default: 5, quick 2)")
     parser.add_argument("--lmp", type=Path, default=None,
                         help="LAMMPS with this package (default: lmp in the build folder)")
+    parser.add_argument("--liggghts", type=Path, default=None, metavar="PROGRAM",
+                        help="LIGGGHTS-INL, to be measured beside gran/eepa")
     parser.add_argument("--mpirun", default="mpirun", help="what starts several ranks")
     parser.add_argument("--no-bind", action="store_true",
                         help="let ranks and threads wander: for a machine that others use")
@@ -198,6 +216,11 @@ def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace
         arguments.rounds = 2 if arguments.quick else 5
     if arguments.rounds < 1:
         parser.error(f"--rounds is {arguments.rounds}, allowed is 1 or more")
+    if arguments.liggghts is not None:
+        found = shutil.which(arguments.liggghts)
+        if found is None:
+            parser.error(f"--liggghts is {arguments.liggghts}, which is no program")
+        arguments.liggghts = Path(found).resolve()
     return arguments
 
 
@@ -218,7 +241,7 @@ def main(words: Optional[Sequence[str]] = None) -> int:
             build, Path(machine.configured(build)["lammps_source_path"]), work, results,
             machine.describe(build, HERE.parent, arguments.mpirun,
                              sys.argv[1:] if words is None else words),
-            arguments.quick, arguments.rounds)
+            arguments.quick, arguments.rounds, arguments.liggghts)
         print("\n".join(f"{name}: {value}" for name, value in session.description.items()),
               flush=True)
         for name in PARTS:

@@ -10,6 +10,8 @@ from typing import Dict, Iterable
 _LOOP = re.compile(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms")
 _CPU = re.compile(r"^([\d.]+)% CPU use with")
 _SECTION = re.compile(r"^(\w+)\s*\|\s*([\d.e+-]*)\s*\|\s*([\d.e+-]+)\s*\|\s*([\d.e+-]*)\s*\|")
+# as LAMMPS wrote it until 2013 and LIGGGHTS does
+_OLD_SECTION = re.compile(r"^(\w+)\s+time \(%\) = (\S+) \(")
 _NEIGHBORS = re.compile(r"^Total # of neighbors = (\d+)")
 _BUILDS = re.compile(r"^Neighbor list builds = (\d+)")
 _MEMORY = re.compile(r"^Per MPI rank memory allocation \(min/avg/max\) = "
@@ -72,6 +74,10 @@ def _read_line(run: TimedRun, line: str) -> None:
     if loop:
         run.loop = float(loop.group(1))
         run.ranks, run.steps, run.atoms = (int(loop.group(k)) for k in (2, 3, 4))
+        return
+    old = _OLD_SECTION.match(line)
+    if old:
+        run.sections[old.group(1)] = float(old.group(2))
         return
     section = _SECTION.match(line)
     if section:

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "examples" / "scale_collapse"), str(ROOT / "examples"),
                 str(ROOT / "coarsen")]
 
-from bench import (cases, cost, instructions, kernel, lammps, lammps_log,  # noqa: E402
+from bench import (cases, cost, instructions, kernel, lammps, lammps_log, liggghts,  # noqa: E402
                    many_particles, many_types, memory, output, report, scaling, statistics, styles,
                    walls)
 
@@ -59,6 +59,13 @@ class Logs(unittest.TestCase):
         self.assertEqual((run.neighbors, run.builds), (115124, 1))
         self.assertEqual((run.cpu_percent, run.memory_mb), (99.8, 27.7))
         self.assertEqual(run.contacts, 15500.0)
+
+    def test_sections_of_old_lammps_and_liggghts(self):
+        start = LOG.index("MPI task timing")
+        end = LOG.index("Total # of neighbors")
+        old = LOG[:start] + "Pair  time (%) = 0.0741 (70.4)\nOther time (%) = 0.0031 (2.9)\n\n" + LOG[end:]
+        run = lammps_log.read_run(old.splitlines(True))
+        self.assertEqual((run.pair, run.sections["Other"], run.neighbors), (0.0741, 0.0031, 115124))
 
     def test_unfinished_run_is_an_error(self):
         for end in ("Stage done", "Pair    |"):
@@ -182,6 +189,22 @@ class Kernel(unittest.TestCase):
         context = {"history_doubles": "4", "history_doubles_sds": "7"}
         self.assertEqual(kernel.contact_bytes("none", context), (180, 84))
         self.assertEqual(kernel.contact_bytes("sds", context), (204, 108))
+
+    def test_liggghts_is_given_what_its_script_has(self):
+        case = cases.Case("some", Path("in.compression"), cases.POWDER, Path("some.data"), (2, 2, 3), rebuild=50)
+        given = liggghts.variables(case, Path("other.data"))
+        known = {line.split()[1]: line.split()[3] for line in liggghts.INFILE.read_text().splitlines()
+                 if line.startswith("variable")}
+        self.assertLessEqual(set(given), set(known))
+        # the numbers in the script are those of the material, for whoever runs it by hand
+        for name in ("k1", "k2", "k_adh", "f0", "mu", "mu_r", "e"):
+            self.assertAlmostEqual(float(known[name]) / float(given[name]), 1.0, delta=1e-6, msg=name)
+        self.assertEqual([given[n] for n in ("nx", "ny", "nz", "data")], ["2", "2", "3", "other.data"])
+
+    def test_data_file_without_comments_of_sections(self):
+        text = "LAMMPS data file # 1\n\n2 atoms\n\nAtoms # sphere\n\n1 1 0.001 2000 0 0 0 0 0 0\n"
+        self.assertEqual(liggghts.plain_data(text),
+                         "LAMMPS data file # 1\n\n2 atoms\n\nAtoms\n\n1 1 0.001 2000 0 0 0 0 0 0\n")
 
     def test_failed_benchmark_is_an_error(self):
         entry = {"run_name": "linear/loading/none/one", "name": "n", "run_type": "iteration",
