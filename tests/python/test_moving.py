@@ -44,12 +44,12 @@ def epsd(k1, mu_r, damping):
 
 
 def log_damping(stiffness, mass, restitution):
-    """LIGGGHTS: gamman of edinburgh, edinburgh/stiff and luding."""
+    """LIGGGHTS: gamman of edinburgh, edinburgh/stiffness and luding."""
     return math.sqrt(4.0 * mass * stiffness / (1.0 + (math.pi / math.log(restitution)) ** 2))
 
 
 class LiggghtsFixedAdhesion:
-    """edinburgh and edinburgh/stiff with fixKc on (src/normal_model_edinburgh.h)."""
+    """edinburgh and edinburgh/stiffness with fixKc on (src/normal_model_edinburgh.h)."""
 
     def __init__(self, k1, k2, kc, f0, exponent=1.0):
         self.k1, self.k2, self.kc, self.f0, self.n = k1, k2, kc, f0, exponent
@@ -73,7 +73,7 @@ class SurfaceEnergyAdhesion:
     """EEPA whose adhesive stiffness follows from a surface energy and the plastic overlap so far.
 
     With the radius of the circle in which the spheres cut each other at the plastic overlap this is
-    edinburgh/stiff with fixKc off (LIGGGHTS-INL, src/normal_model_edinburgh_stiffness.h), with sqrt(2 R* delta_p)
+    edinburgh/stiffness with fixKc off (LIGGGHTS-INL, src/normal_model_edinburgh_stiffness.h), with sqrt(2 R* delta_p)
     it is `eepa` of Lokisphere/LIGGGHTS-EEPA (src/normal_model_eepa.h). Both have a pull-off force of
     1.5 pi gamma a beside f0, at most half of k2 delta_p^n.
     """
