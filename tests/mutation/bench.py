@@ -16,7 +16,9 @@ import time
 from schemata import Schemata, with_one
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-COPIED = ("CMakeLists.txt", "cmake", "kernel", "commands", "lammps_pkg", "scripts", "tests")
+# what configuring the project reads
+COPIED = ("CMakeLists.txt", "VERSION", "LICENSE", "cmake", "kernel", "commands", "walls", "lammps_pkg", "scripts",
+          "tests", "benchmarks", "coarsen")
 FLAGS = ("-w -DEEPA_PLAIN_INLINE"
          # what a dropped assignment leaves behind is the same garbage every time; left undefined,
          # the compiler may take for granted that the statement was not dropped

@@ -9,6 +9,7 @@ the size of the difference.
 """
 from __future__ import annotations
 
+import csv
 import math
 import os
 import re
@@ -377,6 +378,54 @@ class Liggghts(unittest.TestCase):
         self.assertLess(run.force[-1], -1e-2)          # theirs: mu |F_n|
         self.assertNotEqual(run.branch[-1], ADHESIVE)  # where bound adhesive would have friction
         self.assertAlmostEqual(run.tangential[-1], 0.0, delta=1e-15)
+
+
+class LiggghtsItself(unittest.TestCase):
+    """The formulas above against what LIGGGHTS-INL 4.0.0 wrote: examples/moving/liggghts."""
+
+    UNIT, STRIDE, TARGETS = 2.0e-5, 0.005, (1.0, 0.8, 1.3, 0.3, 1.5, -0.1)
+
+    def follow(self, law, theirs, damping):
+        """Largest difference of forces, over the largest one."""
+        with (ROOT / "examples" / "moving" / "liggghts" / f"moving_{law}.csv").open() as file:
+            rows = {int(row["step"]): row for row in csv.DictReader(file)}
+        step, overlap, apart, largest, compared = 0, 0.0, 0.0, 0.0, 0
+        at = 0.0
+        for target in self.TARGETS:
+            count = round(abs(target - at) / self.STRIDE)
+            for k in range(1, count + 1):
+                step += 1
+                overlap = self.UNIT * (at + (target - at) * k / count)
+                if overlap <= 1e-9 * self.UNIT:
+                    continue
+                spring = theirs.force(overlap)
+                if step in rows:
+                    row = rows[step]
+                    self.assertAlmostEqual(R1 + R2 - float(row["x"]), overlap, delta=1e-12 * R1)
+                    force = spring - damping * float(row["vx"])
+                    apart = max(apart, abs(force - float(row["fx"])))
+                    largest = max(largest, abs(force))
+                    compared += 1
+            at = target
+        self.assertEqual(compared, 53)
+        return apart / largest
+
+    def test_fixed_adhesion(self):
+        theirs = LiggghtsFixedAdhesion(5e3, 1.5e4, 2.5e3, -1e-3)
+        self.assertLess(self.follow("stiffness", theirs, log_damping(5e3, M_EFFECTIVE, 0.5)), 1e-12)
+
+    def test_surface_energy(self):
+        theirs = SurfaceEnergyAdhesion(5e3, 1.5e4, 10.0, -1e-3, lens_radius)
+        self.assertLess(self.follow("surface_energy", theirs, log_damping(5e3, M_EFFECTIVE, 0.5)), 1e-12)
+
+    def test_exponent(self):
+        k1 = 4.0 / 3.0 * 5e7 / (1.0 - 0.3 ** 2) / 2.0 * math.sqrt(R_EFFECTIVE)
+        theirs = LiggghtsFixedAdhesion(k1, 3.0 * k1, 0.5 * k1, -1e-3, 1.5)
+        self.assertLess(self.follow("hertz", theirs, log_damping(k1, M_EFFECTIVE, 0.5)), 1e-12)
+
+    def test_luding(self):
+        theirs = LiggghtsLuding(5e3, 2.5e4, 5e3, 0.03, R_EFFECTIVE, -1e-3)
+        self.assertLess(self.follow("luding", theirs, log_damping(5e3, M_EFFECTIVE, 0.5)), 1e-12)
 
 
 @unittest.skipUnless(LMP, "EEPA_LMP names no LAMMPS")

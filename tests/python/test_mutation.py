@@ -150,6 +150,17 @@ class Tool(unittest.TestCase):
         self.assertNotEqual(first, other)
         self.assertIn("5 mutants in", first)
 
+    @unittest.skipUnless((TOOL.parents[2] / "CMakeLists.txt").is_file(), "not in the source tree")
+    def test_copy_of_this_project_can_be_configured(self):
+        sys.path.insert(0, str(TOOL.parent))
+        self.addCleanup(sys.path.remove, str(TOOL.parent))
+        import bench
+        copy = self.root / "copy"
+        bench.copy_project(str(TOOL.parents[2]), str(copy))
+        done = subprocess.run(["cmake", "-S", copy, "-B", copy / "build", "-G", "Ninja", "-D", "EEPA_WITH_LAMMPS=OFF"],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
 
 if __name__ == "__main__":
     unittest.main()
