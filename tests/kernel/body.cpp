@@ -107,6 +107,59 @@ TEST(Body, AParticleAndAWallMakeAContact)
   EXPECT_NEAR(c.twist, 1e-3 * (0.6 - 1.6), 1e-17);
 }
 
+// the particle's motion relative to a wall that turns, and the mean of both about the normal
+TEST(Body, AParticleAndATurningWallMakeAContact)
+{
+  const Vec3 u(0.0, 0.6, 0.8);
+  const WallPoint<double> wall{u, 0.25, Vec3(0.2, 0.1, -0.3), Vec3(4.0, 3.0, -2.0),
+                               Vec3(1.0, -2.0, 7.0)};
+  const Contact c = contact_at_wall(first(), wall, dt);
+  EXPECT_LT(deviation(c.velocity, Vec3(0.3, -0.3, 0.4)), 1e-15);
+  EXPECT_EQ(c.angular_velocity, Vec3(2.0, 3.0, -9.0));
+  EXPECT_LT(deviation(c.spin, 1.875 * Vec3(3.0, 1.0, -2.0)), 1e-15);
+  EXPECT_NEAR(c.twist, 1e-3 * (0.6 * (1.0 - 2.0) + 0.8 * (-2.0 + 7.0)), 1e-17);
+}
+
+TEST(Body, TouchesAWallInTheMiddleOfTheOverlap)
+{
+  const Vec3 u(0.0, 0.6, 0.8);
+  EXPECT_LT(deviation(middle_of_overlap(first(), u, 0.25),
+                      Vec3(1.0, 2.0 - 1.875 * 0.6, 4.0 - 1.875 * 0.8)),
+            1e-15);
+}
+
+/// A force in the middle of the overlap and a couple, as the particle feels them.
+Wrench<double> wrench_at(const Contact &c, const Vec3 &force, const Vec3 &couple)
+{
+  return {force, couple - c.arm_i * c.normal.cross(force), Vec3::Zero()};
+}
+
+// what the wall does is its force by its velocity there and its couple by its angular velocity
+TEST(Body, AMovingWallDoesWorkByForceAndCouple)
+{
+  const Vec3 u(0.0, 0.6, 0.8), force(3.0, -1.0, 2.0), couple(0.5, 0.25, -1.0);
+  const WallPoint<double> wall{u, 0.25, Vec3(0.2, 0.1, -0.3), Vec3(4.0, 3.0, -2.0),
+                               Vec3(1.0, -2.0, 7.0)};
+  const Contact c = contact_at_wall(first(), wall, dt);
+  EXPECT_NEAR(power_of_wall(wrench_at(c, force, Vec3::Zero()), c, wall), 0.6 - 0.1 - 0.6, 1e-14);
+  EXPECT_NEAR(power_of_wall(wrench_at(c, force, couple), c, wall),
+              0.6 - 0.1 - 0.6 + 0.5 - 0.5 - 7.0, 1e-14);
+}
+
+// the wall gains what the particle loses of angular momentum, orbital and spin, about any point
+TEST(Body, AWallFeelsTheOppositeMoment)
+{
+  const Vec3 u(0.0, 0.6, 0.8), force(3.0, -1.0, 2.0), couple(0.5, 0.25, -1.0);
+  const WallPoint<double> wall{u, 0.25, Vec3::Zero(), Vec3::Zero()};
+  const Contact c = contact_at_wall(first(), wall, dt);
+  const Vec3 at = middle_of_overlap(first(), u, 0.25);
+  for (const Vec3 &about : {at, Vec3(Vec3::Zero()), Vec3(-2.0, 5.0, 1.0)}) {
+    const Vec3 on_wall = (at - about).cross(-force) - couple;
+    EXPECT_LT(deviation(moment_on_wall(wrench_at(c, force, couple), first().x, about), on_wall),
+              1e-14);
+  }
+}
+
 // a centre lies within the other particle only where the overlap exceeds a radius
 TEST(Body, IsTooDeepBeyondTheSmallerRadius)
 {
