@@ -204,7 +204,7 @@ def run(cases, folder, lmp):
 
 # ---------------------------------------------------------------- as equations of motion
 
-def integrate(case, steps=1000):
+def integrate(case, steps=600):
     """Fourth-order Runge-Kutta, `steps` of them in case.half_period, to the end of the contact: states of the
     bodies. History changes between steps; the slider also bounds the force within one."""
     style, sphere, partner = case.style, case.sphere, case.partner

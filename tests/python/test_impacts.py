@@ -22,7 +22,7 @@ if os.environ.get("EEPA_STYLES") == "in_lammps":
 
 # Steps in half a period of the stiffest branch. Velocity Verlet is off by the square of pi/STEPS. A force that steps where
 # a contact opens or closes, as dashpots and f0 have it, acts up to a step too long or too short.
-STEPS = 10000
+STEPS = 5000
 SMOOTH = 20 * (math.pi / STEPS) ** 2
 STEPPED = 3 * math.pi / STEPS
 # Of velocities after contacts with friction, which begin and end to slide up to a step late, with speeds of 1.
@@ -45,6 +45,10 @@ PLATEAU = law(law="plateau", k2=2e5, k_adh=5e4)
 
 def with_friction(parameters, mu=0.5):
     return {**parameters, "mu": mu}
+
+
+def elastic(parameters):
+    return parameters["k1"] == parameters["k2"] and parameters["restitution"] is None
 
 
 def has_steps(parameters):
@@ -215,9 +219,9 @@ class Oblique(Impacts):
             "growing": GROWING, "limited": LIMITED, "plateau": PLATEAU}
     MU = 0.1
 
-    def cases(self, angles):
-        for name, parameters in self.LAWS.items():
-            parameters = with_friction(parameters, self.MU)
+    def cases(self, angles, laws):
+        for name in laws:
+            parameters = with_friction(self.LAWS[name], self.MU)
             for style in STYLES:
                 if not style.takes(parameters):
                     continue
@@ -231,15 +235,14 @@ class Oblique(Impacts):
                         yield replace(case, time_step=case.half_period / STEPS, stops=(duration(case),))
 
     def test_angles_as_integrated(self):
-        for case, (states, _) in self.run_cases(list(self.cases((10, 30, 60)))):
+        for case, (states, _) in self.run_cases(list(self.cases((10, 30, 60), self.LAWS))):
             with self.subTest(case.name):
                 self.assert_as_integrated(case, states[0])
 
     def test_sliding_to_the_end_is_that_of_the_closed_form(self):
-        for case, (states, _) in self.run_cases(list(self.cases((60, 76)))):
+        # adhesion and f0 would count as pressure in the bound
+        for case, (states, _) in self.run_cases(list(self.cases((60, 76), ("elastic", "dashpot", "hysteretic")))):
             p, sphere = case.law, case.sphere
-            if p["k_adh"] or p["f0"]:    # these count as pressure in the bound
-                continue
             with self.subTest(case.name):
                 mass = case.reduced_mass
                 e = restitution(p, mass, 1.0, reach_of(case))
@@ -251,7 +254,7 @@ class Oblique(Impacts):
                 arm = case.style.arms(sphere, math.pi / 4 * depth)[1]
                 spin = change * arm * sphere.mass / sphere.inertia
                 tolerance = STEPPED
-                if p is not ELASTIC:    # another mean of the arm
+                if not elastic(p):    # another mean of the arm
                     tolerance += 2.5 * change * depth
                 if case.partner:    # the line of centres turns as they slide
                     turned = math.pi * math.sqrt(mass / p["k1"]) * sphere.v[0] / share / (2 * sphere.radius)
@@ -265,9 +268,9 @@ class Spinning(Impacts):
 
     LAWS = {"elastic": ELASTIC, "dashpot": DASHPOT, "hysteretic": HYSTERETIC, "adhesive": ADHESIVE, "growing": GROWING}
 
-    def cases(self, spins=(1.0, 8.0)):
-        for name, parameters in self.LAWS.items():
-            parameters = with_friction(parameters, 0.2)
+    def cases(self, spins, laws):
+        for name in laws:
+            parameters = with_friction(self.LAWS[name], 0.2)
             for style in STYLES:
                 for spin in spins:
                     partners = {"": None} if style.wall else {
@@ -279,14 +282,14 @@ class Spinning(Impacts):
                         yield replace(case, time_step=case.half_period / STEPS, stops=(duration(case),))
 
     def test_as_integrated(self):
-        for case, (states, _) in self.run_cases(list(self.cases())):
+        for case, (states, _) in self.run_cases(list(self.cases((1.0, 8.0), self.LAWS))):
             with self.subTest(case.name):
                 self.assert_as_integrated(case, states[0])
 
     def test_friction_to_the_end_changes_spin_and_velocity_by_the_closed_form(self):
-        for case, (states, _) in self.run_cases(list(self.cases((8.0,)))):
+        for case, (states, _) in self.run_cases(list(self.cases((8.0,), ("elastic", "dashpot", "hysteretic")))):
             p, sphere = case.law, case.sphere
-            if p["k_adh"] or case.partner and not case.partner.frozen:
+            if case.partner and not case.partner.frozen:
                 continue
             with self.subTest(case.name):
                 e = restitution(p, case.reduced_mass, 1.0, reach_of(case))
@@ -294,7 +297,7 @@ class Spinning(Impacts):
                 depth = largest_overlap(p, 1.0, 1.0)
                 arm = case.style.arms(sphere, math.pi / 4 * depth)[1]
                 self.assertGreater(sphere.spin * sphere.radius, 3.5 * change)
-                tolerance = STEPPED + (2.5 * change * depth if p["k2"] > p["k1"] or p["restitution"] else 0.0)
+                tolerance = STEPPED + (0.0 if elastic(p) else 2.5 * change * depth)
                 if case.partner:    # to the side with mu v_n at most, as it parts
                     tolerance += change * math.pi * math.sqrt(1.0 / p["k1"])
                 self.assert_state(states[0][0], (change, e), sphere.spin - change * arm / sphere.inertia, sphere.radius,
@@ -352,8 +355,8 @@ class OnAFloor(Impacts):
                     yield replace(self.pressed(Case(name, with_friction(parameters, 0.3), Body(v=(1.0, 0.0))).of(style)),
                                   stops=stops)
 
-    # With a = R - delta/2 (or R) u falls with mu F/m and a omega grows with mu F a^2/I, until they meet. The sum
-    # I omega + m a u is kept throughout.
+    # u falls with mu F/m and omega grows with mu F a/I, a the arm of the torque, until u = a' omega, a' that of the surface
+    # velocity. I omega + m a u is kept throughout.
     def test_a_sphere_that_slides_comes_to_roll(self):
         gains = 0.3 * self.F
         ends = 2.0 / 7.0 / gains
@@ -361,7 +364,7 @@ class OnAFloor(Impacts):
         for case, (states, _) in self.run_cases(list(self.sliders(stops))):
             with self.subTest(case.name):
                 body, (early, late, end) = case.sphere, (state[0] for state in states)
-                arm = case.style.arms(body, self.F / self.K1)[1]
+                surface, arm = case.style.arms(body, self.F / self.K1)
                 # 1e-4: the centrifugal force is that of velocities half a step old
                 slower = self.speed(case, early) - self.speed(case, late)
                 time = (round(stops[1] / self.STEP) - round(stops[0] / self.STEP)) * self.STEP
@@ -369,9 +372,9 @@ class OnAFloor(Impacts):
                 self.assertAlmostEqual(late.spin - early.spin, gains * time * arm / body.inertia,
                                        delta=1e-4 * gains * time * arm / body.inertia)
                 self.assertGreater(self.speed(case, late) - late.spin * body.radius, 0.1)
-                rolls = 1.0 / (1.0 + body.inertia / (body.mass * arm * case.style.arms(body, self.F / self.K1)[0]))
+                rolls = 1.0 / (1.0 + body.inertia / (body.mass * arm * surface))
                 self.assertAlmostEqual(self.speed(case, end), rolls, delta=1e-5)
-                self.assertAlmostEqual(end.spin * arm, rolls, delta=1e-5)
+                self.assertAlmostEqual(end.spin * surface, rolls, delta=1e-5)
                 self.assertLess(end.aside, 1e-9)
 
     # Rolling resistance alone, without friction: the torque mu_r F R* slows the spin down at a constant rate. `constant` ends
@@ -487,7 +490,7 @@ class Grazing(Impacts):
             for style in styles:
                 if not style.takes(parameters):
                     continue
-                for angle in (45, 60, 70, 76, 82, 88):
+                for angle in (45, 60, 76, 88):
                     angle_in = math.radians(angle)
                     v = (math.sin(angle_in), -math.cos(angle_in))
                     case = Case(f"{name} at {angle}", parameters, Body(v=v)).of(style)
@@ -501,7 +504,8 @@ class Grazing(Impacts):
                 self.assertAlmostEqual(kinetic[0], before, delta=1e-12)
                 # what a spring holds is no less than 0 here: f0 = 0
                 self.assertLessEqual(kinetic.max(), before * (1 + 1e-6))
-                self.assertLess(kinetic[-1], before)
+                if not elastic(case.law):
+                    self.assertLess(kinetic[-1], 0.99 * before)
                 if "at 76" in case.name:
                     self.assert_as_integrated(case, states[0])
                 if not case.style.sub_model:
