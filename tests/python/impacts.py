@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""One sphere that meets another one or a plane: as an in-file for every style that has the laws, and as equations of
-motion, integrated here with the law of tests/oracle. Nothing here calls the kernel.
+"""One sphere that meets another one or a plane, as an in-file for every style that has the laws.
 
 All happens in a plane. t is the direction of sliding, n that from the partner to the sphere at first touch,
 and spins are about n x t, so that a wheel that rolls to +t turns with spin > 0."""
@@ -51,9 +50,11 @@ class Style:
         words = self.granular(law, mass) if self.sub_model else self.own(law)
         return {
             (False, False): "pair_style gran/eepa {0} dtcheck error\npair_coeff * * {1}",
-            (False, True): "pair_style zero 2.0\npair_coeff * *\nfix wall all wall/gran/eepa {0} dtcheck error coeff {1} wall zplane 0 NULL",
+            (False, True): "pair_style zero 2.0\npair_coeff * *\n"
+                           "fix wall all wall/gran/eepa {0} dtcheck error coeff {1} wall zplane 0 NULL",
             (True, False): "pair_style granular\npair_coeff * * {1}",
-            (True, True): "pair_style zero 2.0\npair_coeff * *\nfix wall all wall/gran granular {1} zplane 0 NULL",
+            (True, True): "pair_style zero 2.0\npair_coeff * *\n"
+                          "fix wall all wall/gran granular {1} zplane 0 NULL",
         }[self.sub_model, self.wall].format(*words)
 
     @staticmethod
@@ -139,7 +140,9 @@ class State:
     force: np.ndarray = field(default_factory=lambda: np.zeros(2))
 
 
-# ---------------------------------------------------------------- as an in-file
+def say(numbers):
+    return " ".join(repr(float(a)) for a in numbers)
+
 
 def in_file(number, case):
     steps = [round(stop / case.time_step) for stop in case.stops]
@@ -152,19 +155,20 @@ def in_file(number, case):
         v = case.axes @ [body.v[0], 0.0, body.v[1]]
         x = case.axes @ [0.0, 0.0, height]
         spin = case.axes @ [0.0, body.spin, 0.0]
-        say = lambda numbers: " ".join(repr(float(a)) for a in numbers)
         lines += [f"create_atoms 1 single {say(x)}",
                   f"set atom {i + 1} diameter {2 * body.radius!r} density {density!r}",
                   "set atom {} vx {} vy {} vz {}".format(i + 1, *say(v).split()),
                   f"set atom {i + 1} omega {say(spin)}"]
     frozen = len(bodies) == 2 and bodies[1].frozen
-    lines += ["group moves id 1" + ("" if frozen or len(bodies) == 1 else " 2"), case.style.commands(case.law, case.reduced_mass)]
+    lines += ["group moves id 1" + ("" if frozen or len(bodies) == 1 else " 2"),
+              case.style.commands(case.law, case.reduced_mass)]
     lines += ["group stays id 2", "fix stays stays freeze"] if frozen else []
     # case.more before the integrator, so that it may bring its own
     lines += [case.more or "fix move moves nve/sphere", "neighbor 0.05 bin", f"timestep {case.time_step!r}",
               "thermo_modify norm no", "thermo 1000000000"]
     if case.every:
-        lines += ["compute kinetic all ke", "compute turning all erotate/sphere", "variable kinetic equal c_kinetic+c_turning"]
+        lines += ["compute kinetic all ke", "compute turning all erotate/sphere",
+                  "variable kinetic equal c_kinetic+c_turning"]
         lines += [f"variable f{a} equal f{a}[1]" for a in "xyz"]
         columns = "${kinetic}"
         if not case.style.sub_model:
@@ -187,7 +191,8 @@ def run(cases, folder, lmp):
     """All cases in one process. Of each the states of its bodies at each stop, and the rows of its energies."""
     script = "".join(in_file(i, case) for i, case in enumerate(cases))
     Path(folder, "in.impacts").write_text(script)
-    done = subprocess.run([lmp, "-in", "in.impacts", "-log", "none"], cwd=folder, text=True, capture_output=True, timeout=1200)
+    done = subprocess.run([lmp, "-in", "in.impacts", "-log", "none"], cwd=folder, text=True, capture_output=True,
+                          timeout=1200)
     if done.returncode:
         raise AssertionError(done.stdout[-2000:] + done.stderr)
     found = []
@@ -200,65 +205,3 @@ def run(cases, folder, lmp):
         energies = np.loadtxt(Path(folder, f"energies.{i}"), ndmin=2) if case.every else None
         found.append((states, energies))
     return found
-
-
-# ---------------------------------------------------------------- as equations of motion
-
-def integrate(case, steps=600):
-    """Fourth-order Runge-Kutta, `steps` of them in case.half_period, to the end of the contact: states of the
-    bodies. History changes between steps; the slider also bounds the force within one."""
-    style, sphere, partner = case.style, case.sphere, case.partner
-    q = oracle.scaled(case.law, sphere.radius, partner.radius if partner else None)
-    b_n, b_t = oracle.damping(q, 1.0, case.reduced_mass)
-    assert case.law["n"] == 1 and not case.law["limit_damping"]
-    own_inverse = (1.0 / sphere.mass, 1.0 / sphere.inertia)
-    other_inverse = (1.0 / partner.mass, 1.0 / partner.inertia) if partner and not partner.frozen else (0.0, 0.0)
-    size = sphere.radius + (partner.radius if partner else 0.0)
-
-    def contact(y):
-        xi, zi, uxi, uzi, xj, zj, uxj, uzj, spin_i, spin_j, spring = y.tolist()
-        distance = math.hypot(xi - xj, zi - zj) if partner else zi
-        nx, nz = ((xi - xj) / distance, (zi - zj) / distance) if partner else (0.0, 1.0)
-        overlap = max(size - distance, 0.0)
-        arm_v, arm = style.arms(sphere, overlap)
-        other_v, other_arm = style.arms(partner, overlap) if partner else (0.0, 0.0)
-        vx, vz = uxi - uxj, uzi - uzj
-        v_t = vx * nz - vz * nx - arm_v * spin_i - other_v * spin_j
-        return size - distance, overlap, (nx, nz), vx * nx + vz * nz, v_t, (arm, other_arm), spring
-
-    def forces(overlap, v_n, v_t, spring, memory):
-        f_hys, _, memory = oracle.hysteretic(q, overlap, memory)
-        bound = oracle.friction_bound(q, f_hys, overlap, memory)
-        f_t = -q["kt"] * spring - b_t * v_t
-        return f_hys - b_n * v_n, math.copysign(min(abs(f_t), bound), f_t), abs(f_t) > bound, bound, memory
-
-    def rates(y, memory):
-        _, overlap, (nx, nz), v_n, v_t, (arm, other_arm), spring = contact(y)
-        f_n, f_t = forces(overlap, v_n, v_t, spring, memory)[:2]
-        fx, fz = f_n * nx + f_t * nz, f_n * nz - f_t * nx
-        (im, ii), (jm, ji) = own_inverse, other_inverse
-        return np.array([y[2], y[3], fx * im, fz * im, y[6], y[7], -fx * jm, -fz * jm,
-                         -arm * f_t * ii, -other_arm * f_t * ji, v_t])
-
-    def advanced(y, h, memory):
-        a = rates(y, memory)
-        b = rates(y + 0.5 * h * a, memory)
-        c = rates(y + 0.5 * h * b, memory)
-        return y + h / 6.0 * (a + 2.0 * b + 2.0 * c + rates(y + h * c, memory))
-
-    v_j, spin_j, z_j = (partner.v, partner.spin, -partner.radius) if partner else ((0.0, 0.0), 0.0, 0.0)
-    y = np.array([0.0, sphere.radius, *sphere.v, 0.0, z_j, *v_j, sphere.spin, spin_j, 0.0])
-    memory, gap = 0.0, 0.0
-    h = case.half_period / steps
-    for _ in range(20 * steps):
-        after = advanced(y, h, memory)
-        now, overlap, _, v_n, v_t, _, spring = contact(after)
-        if now <= 0.0:    # the contact ends within this step
-            y = advanced(y, h * gap / (gap - now), memory)
-            return [State(y[0:2], y[2:4], y[8], 0.0), State(y[4:6], y[6:8], y[9], 0.0)]
-        y, gap = after, now
-        _, f_t, sliding, bound, memory = forces(overlap, v_n, v_t, spring, memory)
-        if sliding:
-            behind = abs(b_t * v_t) >= bound and not style.sub_model
-            y[10] = 0.0 if behind else -(f_t + b_t * v_t) / q["kt"]
-    raise AssertionError(f"{case.name}: the contact does not end")
