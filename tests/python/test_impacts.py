@@ -119,9 +119,9 @@ class Oblique(Impacts):
             "growing": GROWING, "limited": LIMITED, "plateau": PLATEAU}
     MU = 0.1
 
-    def cases(self, angles, laws):
+    def cases(self, angles, laws, mu=MU):
         for name in laws:
-            parameters = with_friction(self.LAWS[name], self.MU)
+            parameters = with_friction(self.LAWS[name], mu)
             for style in STYLES:
                 if not style.takes(parameters):
                     continue
@@ -136,6 +136,12 @@ class Oblique(Impacts):
 
     def test_angles_as_integrated(self):
         for case, (states, _) in self.run_cases(list(self.cases((10, 30, 60), self.LAWS))):
+            with self.subTest(case.name):
+                self.assert_as_integrated(case, states[0])
+
+    def test_sticking_as_integrated(self):
+        """The spring bears a force while the line of centres turns, and turns with it."""
+        for case, (states, _) in self.run_cases(list(self.cases((60,), ("elastic", "hysteretic"), 10.0))):
             with self.subTest(case.name):
                 self.assert_as_integrated(case, states[0])
 
