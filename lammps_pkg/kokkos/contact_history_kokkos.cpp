@@ -26,8 +26,8 @@ ContactHistoryKokkos<DeviceType>::ContactHistoryKokkos(LAMMPS *lmp, int narg, ch
   execution_space = Host;
   datamask_read = datamask_modify = EMPTY_MASK;
   exchange_comm_device = sort_device = 1;
-  comm_forward = 1;             // whether a ghost is a new particle
-  host_list.copymode = 1;       // it does not own its arrays
+  comm_forward = 1;          // whether a ghost is a new particle
+  host_list.copymode = 1;    // it does not own its arrays
   on_device.quads_of_slot = (dnum + 3) / 4;
   clear_absent();
   partners.grow(atom->nmax);
@@ -183,13 +183,12 @@ template <class DeviceType> void ContactHistoryKokkos<DeviceType>::make_rows()
   if (on_device.first.extent(0) < particles)
     on_device.first = decltype(Rows::first)(without("eepa:first"), particles);
   slots = 0;
-  Kokkos::parallel_scan("eepa:place_slots",
-                        Kokkos::RangePolicy<DeviceType>(0, device_list->inum),
-                        PlaceSlots<DeviceType>{device_list->d_ilist, device_list->d_numneigh,
-                                               on_device.first},
-                        slots);
+  Kokkos::parallel_scan(
+      "eepa:place_slots", Kokkos::RangePolicy<DeviceType>(0, device_list->inum),
+      PlaceSlots<DeviceType>{device_list->d_ilist, device_list->d_numneigh, on_device.first},
+      slots);
   if (slots <= static_cast<bigint>(on_device.status.extent(0))) return;
-  const bigint reserved = slots + slots / 8;    // lists vary a little in size
+  const bigint reserved = slots + slots / 8;      // lists vary a little in size
   on_device.status = decltype(Rows::status)();    // first, so that there is never memory for both
   on_device.quads = decltype(Rows::quads)();
   on_device.status = decltype(Rows::status)(without("eepa:status"), reserved);
@@ -268,8 +267,8 @@ template <class DeviceType> void ContactHistoryKokkos<DeviceType>::bring_to_host
   values_on_host.resize(slots * dnum);
   if (maxatom < nlocal_neigh) {
     maxatom = atom->nmax;
-    firstflag = static_cast<int **>(
-        memory->srealloc(firstflag, maxatom * sizeof(int *), "eepa:firstflag"));
+    firstflag =
+        static_cast<int **>(memory->srealloc(firstflag, maxatom * sizeof(int *), "eepa:firstflag"));
     firstvalue = static_cast<double **>(
         memory->srealloc(firstvalue, maxatom * sizeof(double *), "eepa:firstvalue"));
   }
@@ -307,8 +306,10 @@ template <class DeviceType> void ContactHistoryKokkos<DeviceType>::bring_partner
     partner[i] = ipage_atom->get(n);
     valuepartner[i] = dpage_atom->get(dnum * n);
     if (!partner[i] || !valuepartner[i])
-      error->one(FLERR, "pair_style gran/eepa: a particle has {} contacts, and neigh_modify one {} allows fewer", n,
-                 neighbor->oneatom);
+      error->one(
+          FLERR,
+          "pair_style gran/eepa: a particle has {} contacts, and neigh_modify one {} allows fewer",
+          n, neighbor->oneatom);
     for (int m = 0; m < n; m++) {
       const bigint at = host.first(i) + m;
       partner[i][m] = host.ids(at);
@@ -451,12 +452,11 @@ void ContactHistoryKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, 
 template <class DeviceType> double ContactHistoryKokkos<DeviceType>::memory_usage()
 {
   return ContactHistory::memory_usage() + partners.memory_usage() +
-      static_cast<double>(on_device.first.span() * sizeof(bigint) +
-                          on_device.status.span() * sizeof(int) +
-                          on_device.quads.span() * sizeof(eepa::Quad) +
-                          device_list_ids.span() * sizeof(tagint) +
-                          neighbors_on_host.capacity() * sizeof(int) +
-                          values_on_host.capacity() * sizeof(double));
+      static_cast<double>(
+             on_device.first.span() * sizeof(bigint) + on_device.status.span() * sizeof(int) +
+             on_device.quads.span() * sizeof(eepa::Quad) + device_list_ids.span() * sizeof(tagint) +
+             neighbors_on_host.capacity() * sizeof(int) +
+             values_on_host.capacity() * sizeof(double));
 }
 
 namespace LAMMPS_NS {

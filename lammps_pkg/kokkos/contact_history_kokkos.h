@@ -56,8 +56,8 @@ template <class DeviceType> class ContactHistoryKokkos : public ContactHistory, 
   int size_restart(int) override;
   int maxsize_restart() override;
 
-  int pack_exchange_kokkos(const int &, DAT::tdual_xfloat_2d &, DAT::tdual_int_1d, DAT::tdual_int_1d,
-                           ExecutionSpace) override;
+  int pack_exchange_kokkos(const int &, DAT::tdual_xfloat_2d &, DAT::tdual_int_1d,
+                           DAT::tdual_int_1d, ExecutionSpace) override;
   void unpack_exchange_kokkos(DAT::tdual_xfloat_2d &, DAT::tdual_int_1d &, int, int, int,
                               ExecutionSpace) override;
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &) override;

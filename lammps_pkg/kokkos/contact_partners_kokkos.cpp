@@ -21,8 +21,7 @@ template <class View> auto beginning(const View &view, bigint count)
 template <class DeviceType> using Range = Kokkos::RangePolicy<DeviceType>;
 
 /// Copies what was written in one space to where DeviceType reads it. LAMMPS does not mark its buffers as modified.
-template <class DeviceType, class DualView>
-void bring_to(DualView &view, ExecutionSpace written)
+template <class DeviceType, class DualView> void bring_to(DualView &view, ExecutionSpace written)
 {
   view.clear_sync_state();
   if (written == Device)
@@ -75,7 +74,8 @@ template <class DeviceType> void ContactPartnersKokkos<DeviceType>::reserve(bigi
   if (needed <= static_cast<bigint>(lists.ids.extent(0))) return;
   const bigint reserved = needed + needed / 8;    // the number of contacts varies a little
   auto ids = uninitialized<decltype(lists.ids)>("eepa:partners:ids", reserved);
-  auto quads = uninitialized<decltype(lists.quads)>("eepa:partners:quads", reserved * quads_of_contact);
+  auto quads =
+      uninitialized<decltype(lists.quads)>("eepa:partners:quads", reserved * quads_of_contact);
   if (used > 0) {
     Kokkos::deep_copy(beginning(ids, used), beginning(lists.ids, used));
     Kokkos::deep_copy(beginning(quads, used * quads_of_contact),
@@ -87,7 +87,8 @@ template <class DeviceType> void ContactPartnersKokkos<DeviceType>::reserve(bigi
 
 template <class DeviceType> double ContactPartnersKokkos<DeviceType>::memory_usage() const
 {
-  return static_cast<double>(lists.first.span() * sizeof(bigint) + lists.count.span() * sizeof(int) +
+  return static_cast<double>(lists.first.span() * sizeof(bigint) +
+                             lists.count.span() * sizeof(int) +
                              (lists.owner.span() + lists.ids.span()) * sizeof(tagint) +
                              lists.quads.span() * sizeof(eepa::Quad) + starts.span() * sizeof(int));
 }
@@ -106,8 +107,8 @@ template <class DeviceType> struct ListedContacts {
   ListedContacts(const NeighListKokkos<DeviceType> &list, const ContactRows<DeviceType> &rows,
                  const PartnerLists<DeviceType> &lists,
                  const typename ArrayTypes<DeviceType>::t_tagint_1d &ids) :
-      ilist(list.d_ilist), numneigh(list.d_numneigh), neighbors(list.d_neighbors), rows(rows),
-      lists(lists), ids(ids)
+      ilist(list.d_ilist),
+      numneigh(list.d_numneigh), neighbors(list.d_neighbors), rows(rows), lists(lists), ids(ids)
   {
   }
 };
@@ -304,8 +305,7 @@ template <class DeviceType> struct Pack {
     for (int n = 0; n < lists.count(i); n++) {
       const bigint at = lists.first(i) + n;
       buffer(m++) = number_of(lists.ids(at));
-      for (int v = 0; v < values; v++)
-        buffer(m++) = lists.quads(at * quads + v / 4).value[v % 4];
+      for (int v = 0; v < values; v++) buffer(m++) = lists.quads(at * quads + v / 4).value[v % 4];
     }
     // the last particles fill the gaps; none of them is sent itself
     const int j = copylist(k);
@@ -328,8 +328,7 @@ template <class DeviceType> struct Arrivals {
   KOKKOS_INLINE_FUNCTION int begin_of(int k) const
   {
     if (k < received_first) return static_cast<int>(integer_of(buffer(k)));
-    return numbers_first +
-        static_cast<int>(integer_of(buffer(numbers_first + k - received_first)));
+    return numbers_first + static_cast<int>(integer_of(buffer(numbers_first + k - received_first)));
   }
   KOKKOS_INLINE_FUNCTION int count_of(int k) const
   {

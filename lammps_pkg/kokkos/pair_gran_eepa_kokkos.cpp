@@ -231,12 +231,11 @@ template <class DeviceType> void PairGranEepaKokkos<DeviceType>::check_radii()
   // execution_space is that of the host meanwhile
   atomKK->sync(ExecutionSpaceFromDevice<DeviceType>::space, RADIUS_MASK | TYPE_MASK);
   int found = 0;
-  Kokkos::parallel_reduce(
-      "gran/eepa:check_radii", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
-      CountTooLarge<DeviceType>{atomKK->k_radius.template view<DeviceType>(),
-                                atomKK->k_type.template view<DeviceType>(),
-                                device_allowed_radius},
-      found);
+  Kokkos::parallel_reduce("gran/eepa:check_radii", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
+                          CountTooLarge<DeviceType>{atomKK->k_radius.template view<DeviceType>(),
+                                                    atomKK->k_type.template view<DeviceType>(),
+                                                    device_allowed_radius},
+                          found);
   if (found == 0) return;
   bring_to_host(HostData::MOTION);    // for the message
   PairGranEepa::check_radii();
