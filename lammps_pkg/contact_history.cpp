@@ -358,11 +358,10 @@ double ContactHistory::box_moved() const
 
 /* ---------------------------------------------------------------------- going with a particle */
 
-/// Reserves the most numbers that a particle takes along. LAMMPS's fix does not count particles
-/// that came from other processors.
+/// LAMMPS's fix does not count particles that came from other processors.
 void ContactHistory::reserve_exchange()
 {
-  maxexchange = (dnum + 1) * maxpartner + 2;
+  maxexchange = (dnum + 1) * maxpartner + exchange_head;
 }
 
 void ContactHistory::grow_arrays(int nmax)

@@ -105,6 +105,8 @@ class ContactHistory : public FixNeighHistory {
   /// Marks the histories beside the neighbour list as those of the present particles.
   void list_is_made();
   void warn_of_lost_histories(bigint stored);
+  /// Tells LAMMPS the most numbers that a particle takes along.
+  void reserve_exchange();
 
   /// Makes the lists of partners on the host the newest ones, for a variant that may keep them elsewhere.
   virtual void bring_partners_to_host() {}
@@ -116,6 +118,7 @@ class ContactHistory : public FixNeighHistory {
   bool list_is_old = true;         // particles may have got other indices since it was made
   bool just_restarted = false;     // no neighbour list was made since a restart file was read
   bool parting_contacts = false;
+  int exchange_head = 2;    // what a particle takes along beside its partners: their number, and `owner`
 
  private:
   static Fix *create(LAMMPS *, int, char **);
@@ -124,7 +127,6 @@ class ContactHistory : public FixNeighHistory {
   void follow_particles();
   void leave_places();
   int place_of(int i) const;
-  void reserve_exchange();
   void remember_sizes();
   double box_moved() const;
   std::string what_does_not_fit() const;

@@ -26,11 +26,13 @@ ContactHistoryKokkos<DeviceType>::ContactHistoryKokkos(LAMMPS *lmp, int narg, ch
   execution_space = Host;
   datamask_read = datamask_modify = EMPTY_MASK;
   exchange_comm_device = sort_device = 1;
+  exchange_head = 3;         // and where its numbers begin
   comm_forward = 1;          // whether a ghost is a new particle
   host_list.copymode = 1;    // it does not own its arrays
   on_device.quads_of_slot = (dnum + 3) / 4;
   clear_absent();
   partners.grow(atom->nmax);
+  reserve_exchange();
 }
 
 template <class DeviceType>
@@ -74,7 +76,7 @@ template <class DeviceType> void ContactHistoryKokkos<DeviceType>::pre_exchange(
   partners_are_on_device = true;
   partners_are_on_host = false;
   maxpartner = partners.most();
-  maxexchange = (dnum + 1) * maxpartner + 3;
+  reserve_exchange();
 }
 
 /// As ContactHistory has it: with newton on, and after a fix that ran before this one has deleted or inserted particles.
@@ -437,7 +439,7 @@ void ContactHistoryKokkos<DeviceType>::unpack_exchange_kokkos(DAT::tdual_xfloat_
   list_is_old = true;
   partners.unpack_exchange(buffer, indices, received, received_first, numbers_first, space);
   maxpartner = partners.most();
-  maxexchange = (dnum + 1) * maxpartner + 3;
+  reserve_exchange();
 }
 
 template <class DeviceType>

@@ -382,10 +382,9 @@ int ContactPartnersKokkos<DeviceType>::pack_exchange(int sent, DAT::tdual_xfloat
                         SizeOfSent<DeviceType>{lists, sent_particles, starts, values}, numbers);
   numbers += sent;
 
-  // LAMMPS's buffer is large enough only for particles with no more partners than maxexchange says
-  const int width = static_cast<int>(buffer.extent(1));
-  if (static_cast<bigint>(buffer.extent(0)) * width < numbers)
-    buffer.resize(numbers / width + 1, width);
+  // LAMMPS has made room for as many as maxexchange says, and keeps pointers to it
+  if (static_cast<bigint>(buffer.extent(0) * buffer.extent(1)) < numbers)
+    Kokkos::abort("gran/eepa/kk: particles take more contacts along than was reserved");
   Kokkos::parallel_for("eepa:pack_partners", Range<DeviceType>(0, sent),
                        Pack<DeviceType>{lists, sent_particles, copylist.template view<DeviceType>(),
                                         starts, numbers_of<DeviceType>(buffer), sent, values,

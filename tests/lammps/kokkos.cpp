@@ -343,6 +343,11 @@ TEST(ParallelKokkosSizes, KeepsTheHistoriesOfMany)
     small.v = 0.2 * Vec3(-std::sin(angle), std::cos(angle), 0.1);
     spheres.push_back(small);
   }
+  // the middle of the box is where processors meet: the large one goes to another, with all its contacts
+  for (Sphere &sphere : spheres) {
+    sphere.x -= Vec3::Constant(0.015);
+    sphere.v += Vec3::Constant(1.0);
+  }
   for (const char *newton : {"on", "off"}) {
     Variant host(false), device(true);
     for (Simulation *simulation :
@@ -353,7 +358,9 @@ TEST(ParallelKokkosSizes, KeepsTheHistoriesOfMany)
       simulation->run(0);
       EXPECT_GE(simulation->compute_vector("contacts")[0], 60.0);
       (*simulation)("neigh_modify every 3 delay 0 check no");
+      EXPECT_LT(simulation->particle(1).x.maxCoeff(), 0.0);
       simulation->run(300);
+      EXPECT_GT(simulation->particle(1).x.minCoeff(), 0.0);
     }
     EXPECT_LT(difference(host.particles(), device.particles()), 1e-9) << newton;
   }
