@@ -226,7 +226,7 @@ std::vector<Sphere> chains()
   for (int chain = 0; chain < 27; chain++) {
     const Vec3 centre = 3.2 * Vec3(chain % 3 - 1, chain / 3 % 3 - 1, chain / 9 - 1);
     const Vec3 along = uniform_vector(generator).normalized();
-    const Vec3 motion = 0.8 * centre + Vec3(3.0, 2.0, 1.5), turn = 4.0 * uniform_vector(generator);
+    const Vec3 motion = 0.8 * centre + Vec3(4.5, 3.0, 2.0), turn = 4.0 * uniform_vector(generator);
     for (int k = -1; k <= 1; k++) {
       Sphere s;
       s.radius = 0.5 + 0.005 * k;
@@ -249,6 +249,8 @@ TEST(ParallelKokkosExchange, KeepsTheBitsOfHistories)
         classic(true, MPI_COMM_WORLD, KokkosComm::classic),
         on_host(true, MPI_COMM_WORLD, KokkosComm::host), device(true), newton(true);
     for (Variant *variant : {&alone, &classic, &on_host, &device, &newton}) {
+      // side by side, so that of four processors two have two neighbours that send them particles
+      (*variant)("processors * 1 1");
       variant->open_box(7.0, 1, "f f f", variant == &newton ? "on" : "off");
       variant->create(chains());
       (*variant)(std::string("pair_style gran/eepa linear\n"
@@ -258,7 +260,7 @@ TEST(ParallelKokkosExchange, KeepsTheBitsOfHistories)
                  "fix integrate all nve/sphere\ntimestep 2e-4");
       variant->run(0);
       EXPECT_EQ(variant->compute_vector("contacts")[0], 54.0);
-      variant->run(1000);
+      variant->run(600);
       // all contacts have gone on, and particles were at new places
       EXPECT_EQ(variant->compute_vector("contacts")[0], 54.0);
     }
