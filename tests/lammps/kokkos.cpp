@@ -226,7 +226,10 @@ std::vector<Sphere> chains()
   for (int chain = 0; chain < 27; chain++) {
     const Vec3 centre = 3.2 * Vec3(chain % 3 - 1, chain / 3 % 3 - 1, chain / 9 - 1);
     const Vec3 along = uniform_vector(generator).normalized();
-    const Vec3 motion = 0.8 * centre + Vec3(4.5, 3.0, 2.0), turn = 4.0 * uniform_vector(generator);
+    // rows along x go in opposite directions
+    const double direction = (chain / 3) % 2 == 0 ? 1.0 : -1.0;
+    const Vec3 motion = 0.8 * centre + direction * Vec3(4.5, 0, 0);
+    const Vec3 turn = 4.0 * uniform_vector(generator);
     for (int k = -1; k <= 1; k++) {
       Sphere s;
       s.radius = 0.5 + 0.005 * k;
@@ -252,6 +255,8 @@ TEST(ParallelKokkosExchange, KeepsTheBitsOfHistories)
       // side by side, so that of four processors two have two neighbours that send them particles
       (*variant)("processors * 1 1");
       variant->open_box(7.0, 1, "f f f", variant == &newton ? "on" : "off");
+      (*variant)(
+          "neighbor 0.3 bin");    // new lists are rare, so that many change their processor at once
       variant->create(chains());
       (*variant)(std::string("pair_style gran/eepa linear\n"
                              "pair_coeff * * 1e4 2e4 1e4 -100 0.5 restitution 0.8 ") +
