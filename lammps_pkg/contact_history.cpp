@@ -54,17 +54,18 @@ class Meanwhile {
 };
 }    // namespace
 
-ContactHistory::ContactHistory(LAMMPS *lmp, int narg, char **arg) :
+ContactHistory::ContactHistory(LAMMPS *lmp, int narg, char **arg, bool with_borders) :
     FixNeighHistory(lmp, narg, arg), owner(atom->nmax, 0), place_in_list(atom->nmax, -1)
 {
   std::copy_n(atom->tag, atom->nlocal, owner.begin());
+  if (!with_borders) return;
   comm_border = 1;    // tells whether a ghost is a new particle
   atom->add_callback(Atom::BORDER);
 }
 
 ContactHistory::~ContactHistory()
 {
-  if (!copymode) atom->delete_callback(id, Atom::BORDER);
+  if (!copymode && comm_border) atom->delete_callback(id, Atom::BORDER);
 }
 
 Fix *ContactHistory::create(LAMMPS *lmp, int narg, char **arg)
@@ -107,8 +108,8 @@ void ContactHistory::end_interrupted_run()
 {
   if (partners_are_newest) return;
   int mine =
-      !list_is_old && nlocal_neigh == atom->nlocal && nall_neigh == atom->nlocal + atom->nghost;
-  for (int i = 0; i < atom->nlocal; i++) mine &= place_in_list[i] == i;
+      !list_is_old && atom_count_is_listed() && nall_neigh == atom->nlocal + atom->nghost;
+  for (int i = 0; i < atom->nlocal; i++) mine &= place_of(i) == i;
   int all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
   if (!all)
@@ -165,8 +166,9 @@ void ContactHistory::keep_partners_in_new_pages()
 
 /* ---------------------------------------------------------------------- which particle a list belongs to */
 
-bool ContactHistory::ids_are_kept() const
+bool ContactHistory::ids_are_kept()
 {
+  bring_partners_to_host();
   int mine = 1, all = 0;
   for (int i = 0; i < atom->nlocal; i++)
     if (npartner[i] > 0 && owner[i] != atom->tag[i]) mine = 0;
@@ -200,22 +202,20 @@ void ContactHistory::pre_exchange()
   follow_particles();
   reserve_exchange();
   for (int i = 0; i < atom->nlocal; i++)
-    if (place_in_list[i] >= 0) owner[i] = atom->tag[i];
+    if (place_of(i) >= 0) owner[i] = atom->tag[i];
 }
 
 /// Moves the lists of partners from the indices that their particles had when the neighbour list
 /// was made to the present ones.
 void ContactHistory::follow_particles()
 {
+  if (in_place) return;
   const int n = atom->nlocal;
-  bool moved = false;
-  for (int i = 0; i < n; i++) moved |= place_in_list[i] != (i < nlocal_neigh ? i : -1);
-  if (!moved) return;
   const std::vector<int> counts(npartner, npartner + nlocal_neigh);
   const std::vector<tagint *> ids(partner, partner + nlocal_neigh);
   const std::vector<double *> values(valuepartner, valuepartner + nlocal_neigh);
   for (int i = 0; i < n; i++) {
-    const int place = place_in_list[i];
+    const int place = place_of(i);
     npartner[i] = place < 0 ? 0 : counts[place];
     if (place < 0) continue;
     partner[i] = ids[place];
@@ -231,11 +231,38 @@ void ContactHistory::post_neighbor()
     const Meanwhile keep_those_that_part(pair->beyond_contact, parting_contacts ? 1 : 0);
     FixNeighHistory::post_neighbor();
   }
-  list_is_old = false;
   list_ids.assign(atom->tag, atom->tag + nall_neigh);
-  std::iota(place_in_list.begin(), place_in_list.begin() + nlocal_neigh, 0);
+  list_is_made();
   if (just_restarted) warn_of_lost_histories(stored);
+}
+
+void ContactHistory::list_is_made()
+{
+  list_is_old = false;
+  in_place = true;
   if (radii_change) remember_sizes();
+}
+
+bool ContactHistory::atom_count_is_listed() const
+{
+  return nlocal_neigh == atom->nlocal;
+}
+
+/// Index that a particle had when the neighbour list was made, -1 where it was not there.
+int ContactHistory::place_of(int i) const
+{
+  if (in_place) return i < nlocal_neigh ? i : -1;
+  return place_in_list[i];
+}
+
+/// Prepares for the first particle that leaves its place. Most often there is none.
+void ContactHistory::leave_places()
+{
+  if (!in_place) return;
+  in_place = false;
+  const auto end = place_in_list.begin() + nlocal_neigh;
+  std::iota(place_in_list.begin(), end, 0);
+  std::fill(end, place_in_list.end(), -1);
 }
 
 /// Removes new particles from the lists of partners. A new particle may have the ID of a deleted
@@ -331,11 +358,10 @@ double ContactHistory::box_moved() const
 
 /* ---------------------------------------------------------------------- going with a particle */
 
-/// Reserves the most numbers that a particle takes along. LAMMPS's fix does not count particles
-/// that came from other processors.
+/// LAMMPS's fix does not count particles that came from other processors.
 void ContactHistory::reserve_exchange()
 {
-  maxexchange = (dnum + 1) * maxpartner + 2;
+  maxexchange = (dnum + 1) * maxpartner + exchange_head;
 }
 
 void ContactHistory::grow_arrays(int nmax)
@@ -348,6 +374,7 @@ void ContactHistory::grow_arrays(int nmax)
 void ContactHistory::copy_arrays(int i, int j, int delflag)
 {
   FixNeighHistory::copy_arrays(i, j, delflag);
+  leave_places();
   owner[j] = owner[i];
   place_in_list[j] = place_in_list[i];
 }
@@ -355,6 +382,7 @@ void ContactHistory::copy_arrays(int i, int j, int delflag)
 void ContactHistory::set_arrays(int i)
 {
   FixNeighHistory::set_arrays(i);
+  leave_places();
   owner[i] = 0;
   place_in_list[i] = -1;
 }
@@ -382,6 +410,7 @@ int ContactHistory::unpack_exchange(int i, double *buf)
 {
   const int m = FixNeighHistory::unpack_exchange(i, buf);
   owner[i] = static_cast<tagint>(ubuf(buf[m]).i);
+  leave_places();
   place_in_list[i] = -1;
   reserve_exchange();
   return m + 1;

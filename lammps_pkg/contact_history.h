@@ -54,7 +54,7 @@ class ContactHistory : public FixNeighHistory {
 
   /// Whether particles with contacts have the IDs that they had at the end of the last run, or
   /// when the restart file was written. Collective.
-  bool ids_are_kept() const;
+  bool ids_are_kept();
 
   /// Sets the law that uses the histories, and warns where another law made them. To be called in
   /// an init. Collective.
@@ -96,18 +96,39 @@ class ContactHistory : public FixNeighHistory {
   int maxsize_restart() override;
 
  protected:
-  ContactHistory(LAMMPS *, int, char **);
+  /// \param with_borders  whether ghosts get `owner` when they are made
+  ContactHistory(LAMMPS *, int, char **, bool with_borders = true);
   bool watches_radii() const { return radii_change; }
+  /// Whether all particles are where they were when the list was made.
+  bool nobody_has_moved() const { return in_place && atom_count_is_listed(); }
+  void forget_partners_with_new_ids();
+  /// Marks the histories beside the neighbour list as those of the present particles.
+  void list_is_made();
+  void warn_of_lost_histories(bigint stored);
+  /// Tells LAMMPS the most numbers that a particle takes along.
+  void reserve_exchange();
+
+  /// Makes the lists of partners on the host the newest ones, for a variant that may keep them elsewhere.
+  virtual void bring_partners_to_host() {}
+
+  // ID of the particle that a list of partners belongs to, 0 for a new particle; ghosts too
+  std::vector<tagint> owner;
+  std::vector<tagint> list_ids;    // IDs of particles and ghosts, by their index in the list
+  std::vector<int> new_here;       // see newcomers()
+  bool list_is_old = true;         // particles may have got other indices since it was made
+  bool just_restarted = false;     // no neighbour list was made since a restart file was read
+  bool parting_contacts = false;
+  int exchange_head = 2;    // what a particle takes along beside its partners: their number, and `owner`
 
  private:
   static Fix *create(LAMMPS *, int, char **);
   void keep_partners_in_new_pages();
-  void forget_partners_with_new_ids();
+  bool atom_count_is_listed() const;
   void follow_particles();
-  void reserve_exchange();
+  void leave_places();
+  int place_of(int i) const;
   void remember_sizes();
   double box_moved() const;
-  void warn_of_lost_histories(bigint stored);
   std::string what_does_not_fit() const;
 
   /// Numbers that a restart file has for a particle after LAMMPS's own.
@@ -124,22 +145,16 @@ class ContactHistory : public FixNeighHistory {
     int damaged = 0;    ///< number of lists with impossible numbers
   };
 
-  // ID of the particle that a list of partners belongs to, 0 for a new particle; ghosts too
-  std::vector<tagint> owner;
+  bool in_place = true;              // all particles; place_in_list is not made then
   std::vector<int> place_in_list;    // index of a particle when the list was made, -1: new
-  std::vector<tagint> list_ids;      // IDs of particles and ghosts, by their index in the list
-  std::vector<int> new_here;         // see newcomers()
   bool radii_change = false;
   std::vector<double> listed_radius;    // when the list was made; kept where radii change
   std::vector<std::array<double, 3>> listed_position;    // likewise
   std::array<double, 6> listed_box{};                    // likewise, lower and upper corner
-  bool parting_contacts = false;
   bool partners_are_newest = true;    // the lists of partners, not the neighbour list's histories
-  bool list_is_old = true;            // particles may have got other indices since it was made
 
   eepa::LawSettings made_by;    // the law of the last run, where there was one
   bool law_is_known = false;
-  bool just_restarted = false;    // no neighbour list was made since a restart file was read
   Misfit misfit;
 };
 

@@ -91,6 +91,7 @@ void ContactHistory::restart(char *buf)
 void ContactHistory::go_on_with(const eepa::LawSettings &law)
 {
   if (law_is_known && (law.law != made_by.law || law.exponent != made_by.exponent)) {
+    bring_partners_to_host();
     bigint mine = 0, all = 0;
     for (int i = 0; i < atom->nlocal; i++) mine += npartner[i];
     MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);

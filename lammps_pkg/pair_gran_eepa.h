@@ -158,9 +158,10 @@ class PairGranEepa : public Pair {
   void init_history();
   void init_radii();
   double largest_partner(int type) const;
+  double allowed_radius(int type) const;
   void check_time_step();
   void check_newcomers();
-  void check_radii() const;
+  virtual void check_radii();
   void warn_of_narrow_box();
   void make_engine();
   void warn_of_fixes();

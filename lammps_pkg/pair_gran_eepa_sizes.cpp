@@ -82,19 +82,24 @@ double PairGranEepa::largest_partner(int type) const
   return std::max(max_radius_dynamic[type], max_radius_frozen[type]);
 }
 
+/// Largest radius that a particle of a type may have in this run, rounding apart.
+double PairGranEepa::allowed_radius(int type) const
+{
+  return largest_partner(type) * (1.0 + 1e-9);
+}
+
 /// Stops where a radius exceeds the largest at the start of the run, which sets the reach of
 /// neighbour lists.
-void PairGranEepa::check_radii() const
+void PairGranEepa::check_radii()
 {
   for (int i = 0; i < atom->nlocal; i++) {
-    const double allowed = largest_partner(atom->type[i]);
-    if (atom->radius[i] <= allowed * (1.0 + 1e-9)) continue;
+    if (atom->radius[i] <= allowed_radius(atom->type[i])) continue;
     error->one(FLERR,
                "{}: atom {} of type {} has grown to a diameter of {:.6g} at step {}, and the "
                "neighbor lists of this run were made for at most {:.6g}: contacts would be missed; "
                "add `largest d` to pair_style, with d the largest diameter in the run",
                style_name, atom->tag[i], atom->type[i], 2.0 * atom->radius[i], update->ntimestep,
-               2.0 * allowed);
+               2.0 * largest_partner(atom->type[i]));
   }
 }
 

@@ -67,7 +67,7 @@ class Finished:
 
 
 def command(program: Program, infile: Path, folder: Path, variables: Mapping[str, str],
-            parallel: Parallel = Parallel(), prefix: Sequence[str] = ()) -> List[str]:
+            parallel: Parallel = Parallel(), prefix: Sequence[str] = (), more: Sequence[str] = ()) -> List[str]:
     words: List[str] = []
     if parallel.ranks > 1:
         words += [program.mpirun, "-np", str(parallel.ranks)]
@@ -80,6 +80,7 @@ def command(program: Program, infile: Path, folder: Path, variables: Mapping[str
     words += [*prefix, str(program.lmp), "-in", str(infile), "-log", str(folder / LOG)]
     if parallel.threads:
         words += ["-sf", "omp", "-pk", "omp", str(parallel.threads)]
+    words += more
     for name, value in variables.items():
         words += ["-var", name, value]
     return words
@@ -101,13 +102,14 @@ def bind(process: subprocess.Popen, cores: int = 1) -> None:
 
 
 def run_lammps(program: Program, infile: Path, folder: Path, variables: Mapping[str, str],
-               parallel: Parallel = Parallel(), prefix: Sequence[str] = ()) -> Finished:
+               parallel: Parallel = Parallel(), prefix: Sequence[str] = (), more: Sequence[str] = ()) -> Finished:
     """Runs an in-file in a folder that must exist.
 
     :param prefix: what LAMMPS is started under, such as valgrind
+    :param more: of LAMMPS's command line
     :raise RunFailed: with the end of what LAMMPS said
     """
-    words = command(program, infile, folder, variables, parallel, prefix)
+    words = command(program, infile, folder, variables, parallel, prefix, more)
     started = time.monotonic()
     with (folder / SCREEN).open("wb") as screen:
         # a session of its own, so that all of it can be ended at once

@@ -13,6 +13,8 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include <Kokkos_Profiling_ScopedRegion.hpp>
+
 #include <limits>
 #include <type_traits>
 
@@ -90,11 +92,6 @@ template <class DeviceType> void PairGranEepaKokkos<DeviceType>::init_style()
                "other lists for particles of different sizes",
                style_name);
   require_all_pairs_of_types();
-  // Particles go to other processors with histories that are on the host then. LAMMPS would change to this itself, with
-  // a warning for each fix.
-  lmp->kokkos->exchange_comm_classic = 1;
-  lmp->kokkos->sort_classic = 1;
-
   PairGranEepa::init_style();
   device_engine = make_contact_engine_kokkos<DeviceType>(style.settings, rolling, twisting);
   auto *request = neighbor->find_request(this);
@@ -142,7 +139,7 @@ template <class DeviceType> void PairGranEepaKokkos<DeviceType>::compute(int efl
   if (classes.empty()) send_coefficients();
   {
     const AsOnHost masses_of_bodies(execution_space);
-    if (neighbor->ago == 0) bring_to_host(HostData::SIZES);
+    if (neighbor->ago == 0) bring_what_new_lists_need();
     begin_force_call();
   }
   if (masses.has_bodies() && neighbor->ago == 0) send_bodies();
@@ -207,11 +204,51 @@ template <class DeviceType> ContactStep<DeviceType> PairGranEepaKokkos<DeviceTyp
   return step;
 }
 
+/* ---------------------------------------------------------------------- where a neighbour list is new */
+
+/// Brings sizes of particles to the host where it needs them for bodies of fix rigid or for particles that were
+/// inserted.
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::bring_what_new_lists_need()
+{
+  if (masses.has_bodies() || !device_history->newcomers().empty()) bring_to_host(HostData::SIZES);
+}
+
+namespace {
+template <class DeviceType> struct CountTooLarge {
+  typename ArrayTypes<DeviceType>::t_float_1d radius;
+  typename ArrayTypes<DeviceType>::t_int_1d type;
+  Kokkos::View<double *, DeviceType> allowed;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int &found) const
+  {
+    if (radius(i) > allowed(type(i))) found++;
+  }
+};
+}    // namespace
+
+template <class DeviceType> void PairGranEepaKokkos<DeviceType>::check_radii()
+{
+  // execution_space is that of the host meanwhile
+  atomKK->sync(ExecutionSpaceFromDevice<DeviceType>::space, RADIUS_MASK | TYPE_MASK);
+  int found = 0;
+  Kokkos::parallel_reduce("gran/eepa:check_radii", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
+                          CountTooLarge<DeviceType>{atomKK->k_radius.template view<DeviceType>(),
+                                                    atomKK->k_type.template view<DeviceType>(),
+                                                    device_allowed_radius},
+                          found);
+  if (found == 0) return;
+  bring_to_host(HostData::MOTION);    // for the message
+  PairGranEepa::check_radii();
+}
+
 /* ---------------------------------------------------------------------- what goes to the device */
 
 template <class DeviceType> void PairGranEepaKokkos<DeviceType>::send_coefficients()
 {
   send(coefficients, "eepa:coefficients", device_coefficients);
+  std::vector<double> allowed(atom->ntypes + 1, 0.0);
+  for (int type = 1; type <= atom->ntypes; type++) allowed[type] = allowed_radius(type);
+  send(allowed, "eepa:allowed_radius", device_allowed_radius);
 }
 
 /// Masses and numbers of rigid bodies change with the neighbour list.
@@ -280,6 +317,7 @@ template <class DeviceType> void PairGranEepaKokkos<DeviceType>::stop_where_too_
 
 template <class DeviceType> void PairGranEepaKokkos<DeviceType>::bring_to_host(HostData data)
 {
+  const Kokkos::Profiling::ScopedRegion region("gran/eepa: particles to the host");
   unsigned int mask = RADIUS_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK;
   if (data != HostData::SIZES) mask |= X_MASK | V_MASK | OMEGA_MASK | TAG_MASK;
   atomKK->sync(Host, mask);

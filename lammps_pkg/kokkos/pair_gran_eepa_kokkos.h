@@ -38,11 +38,13 @@ template <class DeviceType> class PairGranEepaKokkos : public PairGranEepa {
  protected:
   void bring_to_host(HostData) override;
   class ContactHistory *make_history(int values) override;
+  void check_radii() override;
 
  private:
   template <class T> using DeviceArray = Kokkos::View<T *, DeviceType>;
 
   void require_all_pairs_of_types() const;
+  void bring_what_new_lists_need();
   void send_coefficients();
   void send_bodies();
   void allocate_tallies_of_atoms();
@@ -56,6 +58,7 @@ template <class DeviceType> class PairGranEepaKokkos : public PairGranEepa {
   NeighListKokkos<DeviceType> *device_list = nullptr;            // `list` is its copy on the host
 
   DeviceArray<eepa::Coefficients> device_coefficients;    // (ntypes+1)^2
+  DeviceArray<double> device_allowed_radius;              // by type
   DeviceArray<double> body_mass, body;                    // of fix rigid, as in ContactMasses
   DAT::tdual_efloat_1d energy_of_atoms;
   DAT::tdual_virial_array virial_of_atoms;

@@ -7,16 +7,20 @@
 
 #include "packing.h"
 
+#include "counts.h"
+
 #include "compute.h"
 #include "force.h"
 #include "lammps.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "update.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
+#include <dlfcn.h>
 
 using namespace eepa_test;
 
@@ -30,15 +34,17 @@ struct Law {
 /// A LAMMPS with KOKKOS, whatever the environment says, or one without.
 class Variant : public Simulation {
  public:
-  explicit Variant(bool kokkos, MPI_Comm comm = MPI_COMM_WORLD) :
-      Simulation(comm, "none", kokkos ? with_kokkos() : std::vector<std::string>())
+  explicit Variant(bool kokkos, MPI_Comm comm = MPI_COMM_WORLD,
+                   KokkosComm kokkos_comm = KokkosComm::device) :
+      Simulation(comm, "none", kokkos ? with_kokkos(kokkos_comm) : std::vector<std::string>())
   {
   }
 
  private:
-  static std::vector<std::string> with_kokkos()
+  static std::vector<std::string> with_kokkos(KokkosComm comm)
   {
-    return std::getenv("EEPA_TEST_KOKKOS") ? kokkos_of_environment() : kokkos_with("1");
+    const char *threads = std::getenv("EEPA_TEST_KOKKOS");
+    return kokkos_with(threads ? threads : "1", comm);
   }
 };
 
@@ -63,17 +69,21 @@ class ParallelKokkos : public testing::TestWithParam<Law> {
 TEST_P(ParallelKokkos, GivesTheMotionOfTheHost)
 {
   for (const char *newton : {"on", "off"}) {
-    Variant host(false), device(true);
+    Variant host(false), device(true), classic(true, MPI_COMM_WORLD, KokkosComm::classic),
+        on_host(true, MPI_COMM_WORLD, KokkosComm::host);
     for (Simulation *simulation :
-         {static_cast<Simulation *>(&host), static_cast<Simulation *>(&device)})
-      start(*simulation, newton);
+         std::initializer_list<Simulation *>{&host, &device, &classic, &on_host})
+      start(*simulation, newton, "atom_modify sort 20 1.0");
     // rounding errors grow exponentially in a packing that is shaken
     const std::pair<int, double> stages[] = {{0, 1e-13}, {1, 1e-13}, {99, 1e-12}, {400, 1e-9}};
     for (const auto &[steps, tolerance] : stages) {
       host.run(steps);
-      device.run(steps);
-      EXPECT_LT(difference(host.particles(), device.particles()), tolerance)
-          << steps << " newton " << newton;
+      for (Variant *variant : {&device, &classic, &on_host}) {
+        variant->run(steps);
+        EXPECT_LT(difference(host.particles(), variant->particles()), tolerance)
+            << steps << " newton " << newton << " variant " << (variant == &classic)
+            << (variant == &on_host);
+      }
     }
     // the host's style would pass every test here
     EXPECT_STREQ(device.lammps()->force->pair_style, "gran/eepa/kk");
@@ -208,6 +218,123 @@ TEST(Kokkos, GivesTwoSpheresTheBitsOfTheHost)
   }
 }
 
+/// Chains of three that drift apart and turn, in a box without periodic faces.
+std::vector<Sphere> chains()
+{
+  std::mt19937 generator(7);
+  std::vector<Sphere> all;
+  for (int chain = 0; chain < 27; chain++) {
+    const Vec3 centre = 3.2 * Vec3(chain % 3 - 1, chain / 3 % 3 - 1, chain / 9 - 1);
+    const Vec3 along = uniform_vector(generator).normalized();
+    // rows along x go in opposite directions
+    const double direction = (chain / 3) % 2 == 0 ? 1.0 : -1.0;
+    const Vec3 motion = 0.8 * centre + direction * Vec3(4.5, 0, 0);
+    const Vec3 turn = 4.0 * uniform_vector(generator);
+    for (int k = -1; k <= 1; k++) {
+      Sphere s;
+      s.radius = 0.5 + 0.005 * k;
+      s.x = centre + 0.98 * k * along;
+      s.v = motion + turn.cross(0.98 * k * along) + 0.1 * uniform_vector(generator);
+      s.omega = turn + 3.0 * uniform_vector(generator);
+      all.push_back(s);
+    }
+  }
+  return all;
+}
+
+// No particle has more than two contacts, so that the order of particles does not change a sum: histories must have the
+// same bits however they went through processors and were sorted.
+TEST(ParallelKokkosExchange, KeepsTheBitsOfHistories)
+{
+  const char *models[] = {"rolling sds 1e3 1 0.1 twisting marshall", "twisting marshall"};
+  for (const char *model : models) {
+    Variant alone(true, MPI_COMM_SELF, KokkosComm::classic),
+        classic(true, MPI_COMM_WORLD, KokkosComm::classic),
+        on_host(true, MPI_COMM_WORLD, KokkosComm::host), device(true), newton(true);
+    for (Variant *variant : {&alone, &classic, &on_host, &device, &newton}) {
+      // side by side, so that of four processors two have two neighbours that send them particles
+      (*variant)("processors * 1 1");
+      variant->open_box(7.0, 1, "f f f", variant == &newton ? "on" : "off");
+      (*variant)(
+          "neighbor 0.3 bin");    // new lists are rare, so that many change their processor at once
+      variant->create(chains());
+      (*variant)(std::string("pair_style gran/eepa linear\n"
+                             "pair_coeff * * 1e4 2e4 1e4 -100 0.5 restitution 0.8 ") +
+                 model +
+                 "\ncompute contacts all gran/eepa/contacts\natom_modify sort 10 2.0\n"
+                 "fix integrate all nve/sphere\ntimestep 2e-4");
+      variant->run(0);
+      EXPECT_EQ(variant->compute_vector("contacts")[0], 54.0);
+      variant->run(600);
+      // all contacts have gone on, and particles were at new places
+      EXPECT_EQ(variant->compute_vector("contacts")[0], 54.0);
+    }
+    for (Variant *variant : {&classic, &on_host, &device, &newton})
+      EXPECT_EQ(difference(alone.particles(), variant->particles()), 0.0) << model;
+  }
+}
+
+/// What Kokkos has done, as tests/kokkos_tool counts it.
+struct KokkosCounts {
+  decltype(&eepa_counted) counted = nullptr;
+  decltype(&eepa_reset_counts) reset = nullptr;
+
+  KokkosCounts()
+  {
+    const char *path = std::getenv("KOKKOS_TOOLS_LIBS");
+    void *library = path ? dlopen(path, RTLD_LAZY | RTLD_NOLOAD) : nullptr;
+    if (!library) return;
+    counted = reinterpret_cast<decltype(counted)>(dlsym(library, "eepa_counted"));
+    reset = reinterpret_cast<decltype(reset)>(dlsym(library, "eepa_reset_counts"));
+  }
+};
+
+// The time of a step with a new list, on a GPU: all that would go over the host.
+TEST(ParallelKokkosExchange, LeavesParticlesAndHistoriesOnTheDevice)
+{
+  Variant simulation(true);
+  const KokkosCounts kokkos;
+  if (!kokkos.counted) GTEST_SKIP() << "KOKKOS_TOOLS_LIBS must name the library kokkos_counts";
+  Packing packing;
+  packing.speed = 1.0;
+  packing.polydisperse = true;
+  simulation.open_box(packing.half(), 1, "p p p", "off");
+  std::vector<Sphere> spheres = packing.spheres();
+  for (Sphere &sphere : spheres) sphere.v += Vec3(30.0, 20.0, 25.0);    // all cross some boundary
+  simulation.create(spheres);
+  simulation("pair_style gran/eepa linear\n"
+             "pair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8 rolling sds 1e3 1 0.1\n"
+             "fix integrate all nve/sphere\ntimestep 2e-4\natom_modify sort 1 1.0\n"
+             "neigh_modify every 5 delay 0 check no");
+  simulation.run(100);
+  kokkos.reset();
+  simulation("run 100 pre no post no");
+  const auto kernels = [&](const char *name) {
+    return kokkos.counted(EEPA_KERNELS, name);
+  };
+  EXPECT_EQ(kernels("eepa:put_histories"), 20u);
+  EXPECT_EQ(kernels("eepa:fill_partners"), 21u);    // and at the end of the run
+  int ranks;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks > 1) {
+    EXPECT_EQ(kernels("BuildExchangeListFunctor"), 60u);
+    EXPECT_GT(kernels("eepa:pack_partners"), 0u);
+    EXPECT_GT(kernels("eepa:unpack_partners"), 0u);
+  }
+  EXPECT_GE(kernels("BuildBorderListFunctor"), 20u * 6u);
+  EXPECT_GE(kernels("Sort::CopyPermute"), 20u * 12u);    // 9 arrays of particles, 3 of histories
+  EXPECT_EQ(kokkos.counted(EEPA_REGIONS, "gran/eepa: "), 0u);
+  for (const char *histories : {"eepa:status", "eepa:quads", "eepa:partners:quads"})
+    EXPECT_EQ(kokkos.counted(EEPA_COPIED_BYTES, histories), 0u) << histories;
+
+  // the counts tell: a restart file brings histories to the host
+  kokkos.reset();
+  const ScratchFile file(".restart");
+  simulation("write_restart " + file.name());
+  EXPECT_EQ(kokkos.counted(EEPA_REGIONS, "gran/eepa: partners to the host"), 1u);
+  EXPECT_GT(kokkos.counted(EEPA_COPIED_BYTES, "eepa:partners:quads"), 0u);
+}
+
 // A particle with more contacts than any of equal size can have.
 TEST(ParallelKokkosSizes, KeepsTheHistoriesOfMany)
 {
@@ -218,22 +345,36 @@ TEST(ParallelKokkosSizes, KeepsTheHistoriesOfMany)
     const double z = 1.0 - (2.0 * k + 1.0) / 60.0, angle = 2.4 * k, r = std::sqrt(1.0 - z * z);
     Sphere small;
     small.radius = 0.1;
-    small.x = 1.095 * Vec3(r * std::cos(angle), r * std::sin(angle), z);
+    small.x = 1.098 * Vec3(r * std::cos(angle), r * std::sin(angle), z);
     small.v = 0.2 * Vec3(-std::sin(angle), std::cos(angle), 0.1);
     spheres.push_back(small);
   }
-  Variant host(false), device(true);
-  for (Simulation *simulation :
-       {static_cast<Simulation *>(&host), static_cast<Simulation *>(&device)}) {
-    simulation->open_box(2.0);
-    simulation->create(spheres);
-    (*simulation)(cohesive + "\ncompute contacts all gran/eepa/contacts");
-    simulation->run(0);
-    EXPECT_GE(simulation->compute_vector("contacts")[0], 60.0);
-    (*simulation)("neigh_modify every 3 delay 0 check no");
-    simulation->run(300);
+  // the middle of the box is where processors meet: the large one goes to another, with all its contacts
+  for (Sphere &sphere : spheres) {
+    sphere.x -= Vec3::Constant(0.015);
+    sphere.v += Vec3::Constant(1.0);
   }
-  EXPECT_LT(difference(host.particles(), device.particles()), 1e-9);
+  for (const char *newton : {"on", "off"}) {
+    Variant host(false), device(true);
+    for (Simulation *simulation :
+         {static_cast<Simulation *>(&host), static_cast<Simulation *>(&device)}) {
+      simulation->open_box(2.0, 1, "f f f", newton);
+      simulation->create(spheres);
+      // the force of pull-off holds them at this overlap
+      (*simulation)("pair_style gran/eepa linear\n"
+                    "pair_coeff * * 1e4 2e4 5e3 -20 0.5 restitution 0.8 rolling sds 1e3 1 0.1\n"
+                    "fix integrate all nve/sphere\ntimestep 1e-4\n"
+                    "compute contacts all gran/eepa/contacts");
+      simulation->run(0);
+      EXPECT_EQ(simulation->compute_vector("contacts")[0], 60.0);
+      (*simulation)("neigh_modify every 3 delay 0 check no\natom_modify sort 3 0.5");
+      EXPECT_LT(simulation->particle(1).x.maxCoeff(), 0.0);
+      simulation->run(300);
+      EXPECT_GT(simulation->particle(1).x.minCoeff(), 0.0);
+      EXPECT_EQ(simulation->compute_vector("contacts")[0], 60.0);
+    }
+    EXPECT_LT(difference(host.particles(), device.particles()), 1e-9) << newton;
+  }
 }
 
 // Frozen particles, a rigid body and a wall of the host beside contacts on the device.

@@ -70,9 +70,11 @@ std::vector<std::string> kokkos_of_environment()
   return threads ? kokkos_with(threads) : std::vector<std::string>();
 }
 
-std::vector<std::string> kokkos_with(const std::string &threads)
+std::vector<std::string> kokkos_with(const std::string &threads, KokkosComm comm)
 {
-  return {"-kokkos", "on", "t", threads, "-suffix", "kk", "-package", "kokkos", "neigh", "half"};
+  const char *where = comm == KokkosComm::device ? "device" : comm == KokkosComm::host ? "host" : "no";
+  return {"-kokkos", "on",   "t",    threads, "-suffix", "kk",  "-package", "kokkos",
+          "neigh",   "half", "comm", where,   "sort",    where};
 }
 
 Simulation::Simulation(MPI_Comm comm, const std::string &log,

@@ -60,8 +60,12 @@ struct PairContact {
   Vec3 tangential() const { return {p[0], p[1], p[2]}; }    ///< on i
 };
 
+/// How LAMMPS's KOKKOS communicates and sorts: with kernels for the device, with the same kernels for the host, or with
+/// the functions of a LAMMPS without KOKKOS.
+enum class KokkosComm { device, host, classic };
+
 /// LAMMPS's command line for KOKKOS. A process has one number of threads, that of its first LAMMPS.
-std::vector<std::string> kokkos_with(const std::string &threads);
+std::vector<std::string> kokkos_with(const std::string &threads, KokkosComm = KokkosComm::device);
 /// The same with the threads that the environment's EEPA_TEST_KOKKOS asks for; nothing without it.
 std::vector<std::string> kokkos_of_environment();
 

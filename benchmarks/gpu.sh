@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# Measures gran/eepa/kk beside LAMMPS's gran/hooke/history/kk. Arguments go to run_gpu.py: --lmp, --kokkos, --quick.
+# Nothing is built: LAMMPS must have been built with KOKKOS as docs/kokkos.md says.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+python=$(sh "$root/scripts/find_python.sh")
+exec "$python" "$root/benchmarks/run_gpu.py" "$@"

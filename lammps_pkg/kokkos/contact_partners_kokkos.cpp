@@ -1,0 +1,504 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "contact_partners_kokkos.h"
+
+#include <algorithm>
+#include <string>
+
+using namespace LAMMPS_NS;
+
+namespace {
+template <class View> View uninitialized(const std::string &name, bigint size)
+{
+  return View(Kokkos::view_alloc(name, Kokkos::WithoutInitializing), size);
+}
+
+/// The first `count` elements of a view.
+template <class View> auto beginning(const View &view, bigint count)
+{
+  return Kokkos::subview(view, std::make_pair(bigint{0}, count));
+}
+
+template <class DeviceType> using Range = Kokkos::RangePolicy<DeviceType>;
+
+/// Copies what was written in one space to where DeviceType reads it. LAMMPS does not mark its buffers as modified.
+template <class DeviceType, class DualView> void bring_to(DualView &view, ExecutionSpace written)
+{
+  view.clear_sync_state();
+  if (written == Device)
+    view.template modify<LMPDeviceType>();
+  else
+    view.template modify<LMPHostType>();
+  view.template sync<DeviceType>();
+  view.clear_sync_state();
+}
+
+/// A buffer of LAMMPS as a row of numbers.
+template <class DeviceType>
+using Numbers = Kokkos::View<X_FLOAT *, DeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+
+template <class DeviceType> Numbers<DeviceType> numbers_of(DAT::tdual_xfloat_2d &buffer)
+{
+  return Numbers<DeviceType>(buffer.template view<DeviceType>().data(),
+                             buffer.extent(0) * buffer.extent(1));
+}
+
+KOKKOS_INLINE_FUNCTION X_FLOAT number_of(tagint integer)
+{
+  return d_ubuf(integer).d;
+}
+KOKKOS_INLINE_FUNCTION tagint integer_of(X_FLOAT number)
+{
+  return static_cast<tagint>(d_ubuf(number).i);
+}
+}    // namespace
+
+/* ---------------------------------------------------------------------- memory */
+
+template <class DeviceType> void ContactPartnersKokkos<DeviceType>::grow(int particles)
+{
+  if (lists.count.extent(0) == 0) {
+    lists.first = decltype(lists.first)("eepa:partners:first", particles);
+    lists.count = decltype(lists.count)("eepa:partners:count", particles);
+    lists.owner = decltype(lists.owner)("eepa:partners:owner", particles);
+    return;
+  }
+  Kokkos::resize(lists.first, particles);
+  Kokkos::resize(lists.count, particles);
+  Kokkos::resize(lists.owner, particles);
+}
+
+/// Makes room for partners behind those that are in use.
+template <class DeviceType> void ContactPartnersKokkos<DeviceType>::reserve(bigint partners)
+{
+  const bigint needed = used + partners;
+  if (needed <= static_cast<bigint>(lists.ids.extent(0))) return;
+  const bigint reserved = needed + needed / 8;    // the number of contacts varies a little
+  auto ids = uninitialized<decltype(lists.ids)>("eepa:partners:ids", reserved);
+  auto quads =
+      uninitialized<decltype(lists.quads)>("eepa:partners:quads", reserved * quads_of_contact);
+  if (used > 0) {
+    Kokkos::deep_copy(beginning(ids, used), beginning(lists.ids, used));
+    Kokkos::deep_copy(beginning(quads, used * quads_of_contact),
+                      beginning(lists.quads, used * quads_of_contact));
+  }
+  lists.ids = ids;
+  lists.quads = quads;
+}
+
+template <class DeviceType> double ContactPartnersKokkos<DeviceType>::memory_usage() const
+{
+  return static_cast<double>(lists.first.span() * sizeof(bigint) +
+                             lists.count.span() * sizeof(int) +
+                             (lists.owner.span() + lists.ids.span()) * sizeof(tagint) +
+                             lists.quads.span() * sizeof(eepa::Quad) + starts.span() * sizeof(int));
+}
+
+/* ---------------------------------------------------------------------- from and to a neighbour list */
+
+namespace {
+/// What is at hand of a contact of a neighbour list.
+template <class DeviceType> struct ListedContacts {
+  typename ArrayTypes<DeviceType>::t_int_1d ilist, numneigh;
+  typename ArrayTypes<DeviceType>::t_neighbors_2d neighbors;
+  ContactRows<DeviceType> rows;
+  PartnerLists<DeviceType> lists;
+  typename ArrayTypes<DeviceType>::t_tagint_1d ids;
+
+  ListedContacts(const NeighListKokkos<DeviceType> &list, const ContactRows<DeviceType> &rows,
+                 const PartnerLists<DeviceType> &lists,
+                 const typename ArrayTypes<DeviceType>::t_tagint_1d &ids) :
+      ilist(list.d_ilist),
+      numneigh(list.d_numneigh), neighbors(list.d_neighbors), rows(rows), lists(lists), ids(ids)
+  {
+  }
+};
+
+template <class DeviceType> struct CountPartners : ListedContacts<DeviceType> {
+  int particles;
+
+  CountPartners(const ListedContacts<DeviceType> &listed, int particles) :
+      ListedContacts<DeviceType>(listed), particles(particles)
+  {
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+  {
+    const int i = this->ilist(ii);
+    int own = 0;
+    for (int jj = 0; jj < this->numneigh(i); jj++) {
+      if (this->rows.status(this->rows.first(i) + jj) == eepa::ContactStatus::none) continue;
+      own++;
+      const int j = this->neighbors(i, jj) & NEIGHMASK;
+      if (j < particles) Kokkos::atomic_inc(&this->lists.count(j));
+    }
+    if (own > 0) Kokkos::atomic_add(&this->lists.count(i), own);
+  }
+};
+
+/// Gives each particle its part of the pool.
+template <class DeviceType> struct PlaceLists {
+  PartnerLists<DeviceType> lists;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i, bigint &sum, bool is_final) const
+  {
+    if (is_final) lists.first(i) = sum;
+    sum += lists.count(i);
+  }
+};
+
+template <class DeviceType> struct LargestCount {
+  PartnerLists<DeviceType> lists;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int &most) const
+  {
+    most = eepa::max(most, lists.count(i));
+  }
+};
+
+template <class DeviceType> struct FillLists : ListedContacts<DeviceType> {
+  int particles;
+
+  FillLists(const ListedContacts<DeviceType> &listed, int particles) :
+      ListedContacts<DeviceType>(listed), particles(particles)
+  {
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+  {
+    const int i = this->ilist(ii);
+    for (int jj = 0; jj < this->numneigh(i); jj++) {
+      const bigint slot = this->rows.first(i) + jj;
+      if (this->rows.status(slot) == eepa::ContactStatus::none) continue;
+      const int j = this->neighbors(i, jj) & NEIGHMASK;
+      add(i, j, slot, 1.0);
+      // as LAMMPS does where two particles change places
+      if (j < particles) add(j, i, slot, -1.0);
+    }
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION void add(int of, int partner, bigint slot, double sign) const
+  {
+    const int quads = this->rows.quads_of_slot;
+    const bigint at = this->lists.first(of) + Kokkos::atomic_fetch_add(&this->lists.count(of), 1);
+    this->lists.ids(at) = this->ids(partner);
+    for (int q = 0; q < quads; q++)
+      for (int k = 0; k < 4; k++)
+        this->lists.quads(at * quads + q).value[k] =
+            sign * this->rows.quads(slot * quads + q).value[k];
+  }
+};
+
+template <class DeviceType> struct PutBeside : ListedContacts<DeviceType> {
+  bool parting;
+
+  PutBeside(const ListedContacts<DeviceType> &listed, bool parting) :
+      ListedContacts<DeviceType>(listed), parting(parting)
+  {
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+  {
+    const int i = this->ilist(ii), partners = this->lists.count(i);
+    const int quads = this->rows.quads_of_slot;
+    const bigint list = this->lists.first(i);
+    for (int jj = 0; jj < this->numneigh(i); jj++) {
+      const bigint slot = this->rows.first(i) + jj;
+      this->rows.clear(slot);
+      const int neighbor = this->neighbors(i, jj);
+      // LAMMPS marks the pairs that touch
+      if (partners == 0 || !(parting || (neighbor >> HISTBITS & 1))) continue;
+      const tagint id = this->ids(neighbor & NEIGHMASK);
+      for (bigint at = list; at < list + partners; at++) {
+        if (this->lists.ids(at) != id) continue;
+        this->rows.status(slot) = 1;    // as LAMMPS's fix; the next force call writes what it is
+        for (int q = 0; q < quads; q++)
+          this->rows.quads(slot * quads + q) = this->lists.quads(at * quads + q);
+        break;
+      }
+    }
+  }
+};
+
+template <class DeviceType> struct CountNew {
+  PartnerLists<DeviceType> lists;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int &found) const
+  {
+    if (lists.owner(i) == 0) found++;
+  }
+};
+}    // namespace
+
+template <class DeviceType>
+bool ContactPartnersKokkos<DeviceType>::has_newcomers(int particles) const
+{
+  int found = 0;
+  Kokkos::parallel_reduce("eepa:count_new", Range<DeviceType>(0, particles),
+                          CountNew<DeviceType>{lists}, found);
+  return found > 0;
+}
+
+template <class DeviceType>
+void ContactPartnersKokkos<DeviceType>::collect(const List &list, const Rows &rows, const Ids &ids,
+                                                int particles)
+{
+  const ListedContacts<DeviceType> listed(list, rows, lists, ids);
+  Kokkos::deep_copy(lists.count, 0);
+  Kokkos::parallel_for("eepa:count_partners", Range<DeviceType>(0, list.inum),
+                       CountPartners<DeviceType>(listed, particles));
+  bigint partners = 0;
+  Kokkos::parallel_scan("eepa:place_partners", Range<DeviceType>(0, particles),
+                        PlaceLists<DeviceType>{lists}, partners);
+  Kokkos::parallel_reduce("eepa:most_partners", Range<DeviceType>(0, particles),
+                          LargestCount<DeviceType>{lists}, Kokkos::Max<int>(largest_count));
+  used = 0;
+  reserve(partners);
+  used = partners;
+  Kokkos::deep_copy(lists.count, 0);
+  Kokkos::parallel_for(
+      "eepa:fill_partners", Range<DeviceType>(0, list.inum),
+      FillLists<DeviceType>(ListedContacts<DeviceType>(list, rows, lists, ids), particles));
+  Kokkos::deep_copy(beginning(lists.owner, particles), beginning(ids, particles));
+}
+
+template <class DeviceType>
+void ContactPartnersKokkos<DeviceType>::put_beside(
+    const List &list, const Rows &rows, const typename ArrayTypes<DeviceType>::t_tagint_1d &ids,
+    bool parting) const
+{
+  Kokkos::parallel_for(
+      "eepa:put_histories", Range<DeviceType>(0, list.inum),
+      PutBeside<DeviceType>(ListedContacts<DeviceType>(list, rows, lists, ids), parting));
+}
+
+/* ---------------------------------------------------------------------- going with a particle */
+
+namespace {
+/// One number a particle comes first, where its numbers begin: owner, number of partners, ID and values of each.
+constexpr int head_size = 2;
+
+template <class DeviceType> struct SizeOfSent {
+  PartnerLists<DeviceType> lists;
+  typename ArrayTypes<DeviceType>::t_int_1d sendlist;
+  Kokkos::View<int *, DeviceType> starts;
+  int values;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int k, int &sum, bool is_final) const
+  {
+    if (is_final) starts(k) = sum;
+    sum += head_size + lists.count(sendlist(k)) * (1 + values);
+  }
+};
+
+template <class DeviceType> struct Pack {
+  PartnerLists<DeviceType> lists;
+  typename ArrayTypes<DeviceType>::t_int_1d sendlist, copylist;
+  Kokkos::View<int *, DeviceType> starts;
+  Numbers<DeviceType> buffer;
+  int sent, values, quads;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int k) const
+  {
+    const int i = sendlist(k);
+    int m = sent + starts(k);
+    buffer(k) = number_of(m);
+    buffer(m++) = number_of(lists.owner(i));
+    buffer(m++) = number_of(lists.count(i));
+    for (int n = 0; n < lists.count(i); n++) {
+      const bigint at = lists.first(i) + n;
+      buffer(m++) = number_of(lists.ids(at));
+      for (int v = 0; v < values; v++) buffer(m++) = lists.quads(at * quads + v / 4).value[v % 4];
+    }
+    // the last particles fill the gaps; none of them is sent itself
+    const int j = copylist(k);
+    if (j < 0) return;
+    lists.first(i) = lists.first(j);
+    lists.count(i) = lists.count(j);
+    lists.owner(i) = lists.owner(j);
+  }
+};
+
+/// What arrived, from up to two processors.
+template <class DeviceType> struct Arrivals {
+  PartnerLists<DeviceType> lists;
+  typename ArrayTypes<DeviceType>::t_int_1d indices;    // -1: goes to another processor
+  Kokkos::View<int *, DeviceType> starts;
+  Numbers<DeviceType> buffer;
+  int received_first, numbers_first, values, quads;
+  bigint used;
+
+  KOKKOS_INLINE_FUNCTION int begin_of(int k) const
+  {
+    if (k < received_first) return static_cast<int>(integer_of(buffer(k)));
+    return numbers_first + static_cast<int>(integer_of(buffer(numbers_first + k - received_first)));
+  }
+  KOKKOS_INLINE_FUNCTION int count_of(int k) const
+  {
+    return indices(k) < 0 ? 0 : static_cast<int>(integer_of(buffer(begin_of(k) + 1)));
+  }
+};
+
+template <class DeviceType> struct PlaceArrivals : Arrivals<DeviceType> {
+  KOKKOS_INLINE_FUNCTION void operator()(int k, int &sum, bool is_final) const
+  {
+    if (is_final) this->starts(k) = sum;
+    sum += this->count_of(k);
+  }
+};
+
+template <class DeviceType> struct Unpack : Arrivals<DeviceType> {
+  KOKKOS_INLINE_FUNCTION void operator()(int k, int &most) const
+  {
+    const int i = this->indices(k), count = this->count_of(k), quads = this->quads;
+    if (i < 0) return;
+    most = eepa::max(most, count);
+    int m = this->begin_of(k);
+    const bigint first = this->used + this->starts(k);
+    this->lists.first(i) = first;
+    this->lists.count(i) = count;
+    this->lists.owner(i) = integer_of(this->buffer(m));
+    m += head_size;
+    for (bigint at = first; at < first + count; at++) {
+      this->lists.ids(at) = integer_of(this->buffer(m++));
+      for (int q = 0; q < quads; q++) this->lists.quads(at * quads + q) = eepa::Quad{};
+      for (int v = 0; v < this->values; v++)
+        this->lists.quads(at * quads + v / 4).value[v % 4] = this->buffer(m++);
+    }
+  }
+};
+}    // namespace
+
+template <class DeviceType>
+int ContactPartnersKokkos<DeviceType>::pack_exchange(int sent, DAT::tdual_xfloat_2d &buffer,
+                                                     DAT::tdual_int_1d &sendlist,
+                                                     DAT::tdual_int_1d &copylist,
+                                                     ExecutionSpace space)
+{
+  sendlist.template sync<DeviceType>();
+  copylist.template sync<DeviceType>();
+  const auto sent_particles = sendlist.template view<DeviceType>();
+  if (static_cast<int>(starts.extent(0)) < sent)
+    starts = uninitialized<decltype(starts)>("eepa:partners:starts", sent + sent / 8);
+  int numbers = 0;
+  Kokkos::parallel_scan("eepa:size_of_sent", Range<DeviceType>(0, sent),
+                        SizeOfSent<DeviceType>{lists, sent_particles, starts, values}, numbers);
+  numbers += sent;
+
+  // LAMMPS has made room for as many as maxexchange says, and keeps pointers to it
+  if (static_cast<bigint>(buffer.extent(0) * buffer.extent(1)) < numbers)
+    Kokkos::abort("gran/eepa/kk: particles take more contacts along than was reserved");
+  Kokkos::parallel_for("eepa:pack_partners", Range<DeviceType>(0, sent),
+                       Pack<DeviceType>{lists, sent_particles, copylist.template view<DeviceType>(),
+                                        starts, numbers_of<DeviceType>(buffer), sent, values,
+                                        quads_of_contact});
+  DeviceType().fence();
+  constexpr auto own = ExecutionSpaceFromDevice<DeviceType>::space;
+  if (space != own) {
+    if (space == Device)
+      bring_to<LMPDeviceType>(buffer, own);
+    else
+      bring_to<LMPHostType>(buffer, own);
+  }
+  return numbers;
+}
+
+template <class DeviceType>
+void ContactPartnersKokkos<DeviceType>::unpack_exchange(DAT::tdual_xfloat_2d &buffer,
+                                                        DAT::tdual_int_1d &indices, int received,
+                                                        int received_first, int numbers_first,
+                                                        ExecutionSpace space)
+{
+  if (space != ExecutionSpaceFromDevice<DeviceType>::space) {
+    bring_to<DeviceType>(buffer, space);
+    bring_to<DeviceType>(indices, space);
+  }
+  if (static_cast<int>(starts.extent(0)) < received)
+    starts = uninitialized<decltype(starts)>("eepa:partners:starts", received + received / 8);
+  Arrivals<DeviceType> arrivals{lists,
+                                indices.template view<DeviceType>(),
+                                starts,
+                                numbers_of<DeviceType>(buffer),
+                                received_first,
+                                numbers_first,
+                                values,
+                                quads_of_contact,
+                                used};
+  int partners = 0;
+  Kokkos::parallel_scan("eepa:place_arrivals", Range<DeviceType>(0, received),
+                        PlaceArrivals<DeviceType>{arrivals}, partners);
+  reserve(partners);
+  arrivals.lists = lists;
+  int most = 0;
+  Kokkos::parallel_reduce("eepa:unpack_partners", Range<DeviceType>(0, received),
+                          Unpack<DeviceType>{arrivals}, Kokkos::Max<int>(most));
+  used += partners;
+  largest_count = std::max(largest_count, most);
+}
+
+namespace {
+/// Sorts on the device, where LAMMPS always does.
+template <class Sorter, class View> void sort_by(Sorter &sorter, const View &view)
+{
+  const auto sorted = Kokkos::create_mirror_view_and_copy(LMPDeviceType(), view);
+  sorter.sort(LMPDeviceType(), sorted);
+  if (sorted.data() != view.data()) Kokkos::deep_copy(view, sorted);
+}
+}    // namespace
+
+template <class DeviceType> void ContactPartnersKokkos<DeviceType>::sort(Sorter &sorter)
+{
+  sort_by(sorter, lists.first);
+  sort_by(sorter, lists.count);
+  sort_by(sorter, lists.owner);
+}
+
+/* ---------------------------------------------------------------------- on the host */
+
+// The copies are memory of their own also where the host could reach the device's: so tests of a host's back end find
+// a copy that is missing.
+
+template <class DeviceType>
+typename ContactPartnersKokkos<DeviceType>::OnHost
+ContactPartnersKokkos<DeviceType>::room_on_host(bigint partners) const
+{
+  OnHost host;
+  host.first = Kokkos::create_mirror(lists.first);
+  host.count = Kokkos::create_mirror(lists.count);
+  host.owner = Kokkos::create_mirror(lists.owner);
+  host.ids = decltype(host.ids)("eepa:partners:ids", partners);
+  host.quads = decltype(host.quads)("eepa:partners:quads", partners * quads_of_contact);
+  return host;
+}
+
+template <class DeviceType>
+typename ContactPartnersKokkos<DeviceType>::OnHost
+ContactPartnersKokkos<DeviceType>::to_host() const
+{
+  const OnHost host = room_on_host(used);
+  Kokkos::deep_copy(host.first, lists.first);
+  Kokkos::deep_copy(host.count, lists.count);
+  Kokkos::deep_copy(host.owner, lists.owner);
+  Kokkos::deep_copy(host.ids, beginning(lists.ids, used));
+  Kokkos::deep_copy(host.quads, beginning(lists.quads, used * quads_of_contact));
+  return host;
+}
+
+template <class DeviceType>
+void ContactPartnersKokkos<DeviceType>::from_host(const OnHost &host, int most)
+{
+  const auto partners = static_cast<bigint>(host.ids.extent(0));
+  used = 0;
+  reserve(partners);
+  used = partners;
+  largest_count = most;
+  Kokkos::deep_copy(lists.first, host.first);
+  Kokkos::deep_copy(lists.count, host.count);
+  Kokkos::deep_copy(lists.owner, host.owner);
+  Kokkos::deep_copy(beginning(lists.ids, used), host.ids);
+  Kokkos::deep_copy(beginning(lists.quads, used * quads_of_contact), host.quads);
+}
+
+namespace LAMMPS_NS {
+template class ContactPartnersKokkos<LMPDeviceType>;
+#ifdef LMP_KOKKOS_GPU
+template class ContactPartnersKokkos<LMPHostType>;
+#endif
+}    // namespace LAMMPS_NS
