@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #include "contact_history_kokkos.h"
 
+#include "list_rows.h"
+
 #include "atom_kokkos.h"
 #include "atom_masks.h"
 #include "comm.h"
@@ -19,7 +21,7 @@ using namespace LAMMPS_NS;
 
 template <class DeviceType>
 ContactHistoryKokkos<DeviceType>::ContactHistoryKokkos(LAMMPS *lmp, int narg, char **arg) :
-    ContactHistory(lmp, narg, arg, false), host_list(lmp), partners(dnum, (dnum + 3) / 4)
+    ContactHistoryOnHost(lmp, narg, arg, false), host_list(lmp), partners(dnum, (dnum + 3) / 4)
 {
   // what this fix reads of particles it asks for itself
   kokkosable = 1;
@@ -160,21 +162,6 @@ template <class DeviceType> void ContactHistoryKokkos<DeviceType>::post_integrat
   ContactHistory::post_integrate();
 }
 
-namespace {
-/// Gives each particle of a neighbour list its slots.
-template <class DeviceType> struct PlaceSlots {
-  typename ArrayTypes<DeviceType>::t_int_1d ilist, numneigh;
-  Kokkos::View<bigint *, DeviceType> first;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int ii, bigint &sum, bool is_final) const
-  {
-    const int i = ilist(ii);
-    if (is_final) first(i) = sum;
-    sum += numneigh(i);
-  }
-};
-}    // namespace
-
 /// Makes the slots of the present neighbour list; what is in them is undefined.
 template <class DeviceType> void ContactHistoryKokkos<DeviceType>::make_rows()
 {
@@ -211,20 +198,6 @@ template <class View> typename View::HostMirror copy_on_host(const View &view, b
   Kokkos::deep_copy(copy, part);
   return copy;
 }
-
-/// Puts the rows of a neighbour list one after another.
-template <class DeviceType> struct PackNeighbors {
-  typename ArrayTypes<DeviceType>::t_int_1d ilist, numneigh;
-  typename ArrayTypes<DeviceType>::t_neighbors_2d neighbors;
-  Kokkos::View<bigint *, DeviceType> first;
-  Kokkos::View<int *, DeviceType> packed;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int ii) const
-  {
-    const int i = ilist(ii);
-    for (int jj = 0; jj < numneigh(i); jj++) packed(first(i) + jj) = neighbors(i, jj);
-  }
-};
 }    // namespace
 
 template <class DeviceType> void ContactHistoryKokkos<DeviceType>::copy_list_to_host()
@@ -352,7 +325,7 @@ template <class DeviceType> void ContactHistoryKokkos<DeviceType>::send_partners
   partners.from_host(host, most);
 }
 
-/* ---------------------------------------------------------------------- going with a particle, on the host */
+/* ---------------------------------------------------------------------- going with a particle */
 
 template <class DeviceType> void ContactHistoryKokkos<DeviceType>::grow_arrays(int nmax)
 {
@@ -361,58 +334,6 @@ template <class DeviceType> void ContactHistoryKokkos<DeviceType>::grow_arrays(i
   std::fill(npartner + std::min<std::size_t>(before, nmax), npartner + nmax, 0);
   partners.grow(nmax);
 }
-
-template <class DeviceType>
-void ContactHistoryKokkos<DeviceType>::copy_arrays(int i, int j, int delflag)
-{
-  change_partners_on_host();
-  ContactHistory::copy_arrays(i, j, delflag);
-}
-
-template <class DeviceType> void ContactHistoryKokkos<DeviceType>::set_arrays(int i)
-{
-  change_partners_on_host();
-  ContactHistory::set_arrays(i);
-}
-
-template <class DeviceType> int ContactHistoryKokkos<DeviceType>::pack_exchange(int i, double *buf)
-{
-  bring_partners_to_host();
-  return ContactHistory::pack_exchange(i, buf);
-}
-
-template <class DeviceType>
-int ContactHistoryKokkos<DeviceType>::unpack_exchange(int i, double *buf)
-{
-  change_partners_on_host();
-  return ContactHistory::unpack_exchange(i, buf);
-}
-
-template <class DeviceType> int ContactHistoryKokkos<DeviceType>::pack_restart(int i, double *buf)
-{
-  bring_partners_to_host();
-  return ContactHistory::pack_restart(i, buf);
-}
-
-template <class DeviceType> void ContactHistoryKokkos<DeviceType>::unpack_restart(int i, int nth)
-{
-  change_partners_on_host();
-  ContactHistory::unpack_restart(i, nth);
-}
-
-template <class DeviceType> int ContactHistoryKokkos<DeviceType>::size_restart(int i)
-{
-  bring_partners_to_host();
-  return ContactHistory::size_restart(i);
-}
-
-template <class DeviceType> int ContactHistoryKokkos<DeviceType>::maxsize_restart()
-{
-  bring_partners_to_host();
-  return ContactHistory::maxsize_restart();
-}
-
-/* ---------------------------------------------------------------------- and on the device */
 
 template <class DeviceType>
 int ContactHistoryKokkos<DeviceType>::pack_exchange_kokkos(const int &sent,

@@ -2,7 +2,7 @@
 #ifndef LMP_EEPA_CONTACT_HISTORY_KOKKOS_H
 #define LMP_EEPA_CONTACT_HISTORY_KOKKOS_H
 
-#include "contact_history.h"
+#include "contact_history_on_host.h"
 #include "contact_partners_kokkos.h"
 #include "contact_rows.h"
 
@@ -22,7 +22,8 @@ namespace LAMMPS_NS {
 ///
 /// LAMMPS's own fix for KOKKOS has none of ContactHistory's checks, reads no restart files, refuses newton on, and writes
 /// beyond its arrays where a particle has more than 8 contacts.
-template <class DeviceType> class ContactHistoryKokkos : public ContactHistory, public KokkosBase {
+template <class DeviceType>
+class ContactHistoryKokkos : public ContactHistoryOnHost, public KokkosBase {
  public:
   static ContactHistoryKokkos *make(LAMMPS *, const std::string &id, int values,
                                     class Pair *contacts_of);
@@ -45,16 +46,8 @@ template <class DeviceType> class ContactHistoryKokkos : public ContactHistory, 
   double memory_usage() override;
 
   void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
-  void set_arrays(int) override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int size_restart(int) override;
-  int maxsize_restart() override;
 
   int pack_exchange_kokkos(const int &, DAT::tdual_xfloat_2d &, DAT::tdual_int_1d,
                            DAT::tdual_int_1d, ExecutionSpace) override;
@@ -64,6 +57,7 @@ template <class DeviceType> class ContactHistoryKokkos : public ContactHistory, 
 
  protected:
   void bring_partners_to_host() override;
+  void change_partners_on_host() override;
 
  private:
   ContactHistoryKokkos(LAMMPS *, int, char **);
@@ -73,7 +67,6 @@ template <class DeviceType> class ContactHistoryKokkos : public ContactHistory, 
   void copy_list_to_host();
   void collect_partners_on_host();
   void send_partners_to_device();
-  void change_partners_on_host();
   void clear_absent();
 
   template <class View> using OnHost = typename View::HostMirror;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
-#include "contact_partners_kokkos.h"
+#include "partner_exchange.h"
+#include "partner_lists.h"
 
 #include <algorithm>
 #include <string>
@@ -30,25 +31,6 @@ template <class DeviceType, class DualView> void bring_to(DualView &view, Execut
     view.template modify<LMPHostType>();
   view.template sync<DeviceType>();
   view.clear_sync_state();
-}
-
-/// A buffer of LAMMPS as a row of numbers.
-template <class DeviceType>
-using Numbers = Kokkos::View<X_FLOAT *, DeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-
-template <class DeviceType> Numbers<DeviceType> numbers_of(DAT::tdual_xfloat_2d &buffer)
-{
-  return Numbers<DeviceType>(buffer.template view<DeviceType>().data(),
-                             buffer.extent(0) * buffer.extent(1));
-}
-
-KOKKOS_INLINE_FUNCTION X_FLOAT number_of(tagint integer)
-{
-  return d_ubuf(integer).d;
-}
-KOKKOS_INLINE_FUNCTION tagint integer_of(X_FLOAT number)
-{
-  return static_cast<tagint>(d_ubuf(number).i);
 }
 }    // namespace
 
@@ -95,138 +77,6 @@ template <class DeviceType> double ContactPartnersKokkos<DeviceType>::memory_usa
 
 /* ---------------------------------------------------------------------- from and to a neighbour list */
 
-namespace {
-/// What is at hand of a contact of a neighbour list.
-template <class DeviceType> struct ListedContacts {
-  typename ArrayTypes<DeviceType>::t_int_1d ilist, numneigh;
-  typename ArrayTypes<DeviceType>::t_neighbors_2d neighbors;
-  ContactRows<DeviceType> rows;
-  PartnerLists<DeviceType> lists;
-  typename ArrayTypes<DeviceType>::t_tagint_1d ids;
-
-  ListedContacts(const NeighListKokkos<DeviceType> &list, const ContactRows<DeviceType> &rows,
-                 const PartnerLists<DeviceType> &lists,
-                 const typename ArrayTypes<DeviceType>::t_tagint_1d &ids) :
-      ilist(list.d_ilist),
-      numneigh(list.d_numneigh), neighbors(list.d_neighbors), rows(rows), lists(lists), ids(ids)
-  {
-  }
-};
-
-template <class DeviceType> struct CountPartners : ListedContacts<DeviceType> {
-  int particles;
-
-  CountPartners(const ListedContacts<DeviceType> &listed, int particles) :
-      ListedContacts<DeviceType>(listed), particles(particles)
-  {
-  }
-  KOKKOS_INLINE_FUNCTION void operator()(int ii) const
-  {
-    const int i = this->ilist(ii);
-    int own = 0;
-    for (int jj = 0; jj < this->numneigh(i); jj++) {
-      if (this->rows.status(this->rows.first(i) + jj) == eepa::ContactStatus::none) continue;
-      own++;
-      const int j = this->neighbors(i, jj) & NEIGHMASK;
-      if (j < particles) Kokkos::atomic_inc(&this->lists.count(j));
-    }
-    if (own > 0) Kokkos::atomic_add(&this->lists.count(i), own);
-  }
-};
-
-/// Gives each particle its part of the pool.
-template <class DeviceType> struct PlaceLists {
-  PartnerLists<DeviceType> lists;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int i, bigint &sum, bool is_final) const
-  {
-    if (is_final) lists.first(i) = sum;
-    sum += lists.count(i);
-  }
-};
-
-template <class DeviceType> struct LargestCount {
-  PartnerLists<DeviceType> lists;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int &most) const
-  {
-    most = eepa::max(most, lists.count(i));
-  }
-};
-
-template <class DeviceType> struct FillLists : ListedContacts<DeviceType> {
-  int particles;
-
-  FillLists(const ListedContacts<DeviceType> &listed, int particles) :
-      ListedContacts<DeviceType>(listed), particles(particles)
-  {
-  }
-  KOKKOS_INLINE_FUNCTION void operator()(int ii) const
-  {
-    const int i = this->ilist(ii);
-    for (int jj = 0; jj < this->numneigh(i); jj++) {
-      const bigint slot = this->rows.first(i) + jj;
-      if (this->rows.status(slot) == eepa::ContactStatus::none) continue;
-      const int j = this->neighbors(i, jj) & NEIGHMASK;
-      add(i, j, slot, 1.0);
-      // as LAMMPS does where two particles change places
-      if (j < particles) add(j, i, slot, -1.0);
-    }
-  }
-
- private:
-  KOKKOS_INLINE_FUNCTION void add(int of, int partner, bigint slot, double sign) const
-  {
-    const int quads = this->rows.quads_of_slot;
-    const bigint at = this->lists.first(of) + Kokkos::atomic_fetch_add(&this->lists.count(of), 1);
-    this->lists.ids(at) = this->ids(partner);
-    for (int q = 0; q < quads; q++)
-      for (int k = 0; k < 4; k++)
-        this->lists.quads(at * quads + q).value[k] =
-            sign * this->rows.quads(slot * quads + q).value[k];
-  }
-};
-
-template <class DeviceType> struct PutBeside : ListedContacts<DeviceType> {
-  bool parting;
-
-  PutBeside(const ListedContacts<DeviceType> &listed, bool parting) :
-      ListedContacts<DeviceType>(listed), parting(parting)
-  {
-  }
-  KOKKOS_INLINE_FUNCTION void operator()(int ii) const
-  {
-    const int i = this->ilist(ii), partners = this->lists.count(i);
-    const int quads = this->rows.quads_of_slot;
-    const bigint list = this->lists.first(i);
-    for (int jj = 0; jj < this->numneigh(i); jj++) {
-      const bigint slot = this->rows.first(i) + jj;
-      this->rows.clear(slot);
-      const int neighbor = this->neighbors(i, jj);
-      // LAMMPS marks the pairs that touch
-      if (partners == 0 || !(parting || (neighbor >> HISTBITS & 1))) continue;
-      const tagint id = this->ids(neighbor & NEIGHMASK);
-      for (bigint at = list; at < list + partners; at++) {
-        if (this->lists.ids(at) != id) continue;
-        this->rows.status(slot) = 1;    // as LAMMPS's fix; the next force call writes what it is
-        for (int q = 0; q < quads; q++)
-          this->rows.quads(slot * quads + q) = this->lists.quads(at * quads + q);
-        break;
-      }
-    }
-  }
-};
-
-template <class DeviceType> struct CountNew {
-  PartnerLists<DeviceType> lists;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int &found) const
-  {
-    if (lists.owner(i) == 0) found++;
-  }
-};
-}    // namespace
-
 template <class DeviceType>
 bool ContactPartnersKokkos<DeviceType>::has_newcomers(int particles) const
 {
@@ -270,101 +120,6 @@ void ContactPartnersKokkos<DeviceType>::put_beside(
 }
 
 /* ---------------------------------------------------------------------- going with a particle */
-
-namespace {
-/// One number a particle comes first, where its numbers begin: owner, number of partners, ID and values of each.
-constexpr int head_size = 2;
-
-template <class DeviceType> struct SizeOfSent {
-  PartnerLists<DeviceType> lists;
-  typename ArrayTypes<DeviceType>::t_int_1d sendlist;
-  Kokkos::View<int *, DeviceType> starts;
-  int values;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int k, int &sum, bool is_final) const
-  {
-    if (is_final) starts(k) = sum;
-    sum += head_size + lists.count(sendlist(k)) * (1 + values);
-  }
-};
-
-template <class DeviceType> struct Pack {
-  PartnerLists<DeviceType> lists;
-  typename ArrayTypes<DeviceType>::t_int_1d sendlist, copylist;
-  Kokkos::View<int *, DeviceType> starts;
-  Numbers<DeviceType> buffer;
-  int sent, values, quads;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int k) const
-  {
-    const int i = sendlist(k);
-    int m = sent + starts(k);
-    buffer(k) = number_of(m);
-    buffer(m++) = number_of(lists.owner(i));
-    buffer(m++) = number_of(lists.count(i));
-    for (int n = 0; n < lists.count(i); n++) {
-      const bigint at = lists.first(i) + n;
-      buffer(m++) = number_of(lists.ids(at));
-      for (int v = 0; v < values; v++) buffer(m++) = lists.quads(at * quads + v / 4).value[v % 4];
-    }
-    // the last particles fill the gaps; none of them is sent itself
-    const int j = copylist(k);
-    if (j < 0) return;
-    lists.first(i) = lists.first(j);
-    lists.count(i) = lists.count(j);
-    lists.owner(i) = lists.owner(j);
-  }
-};
-
-/// What arrived, from up to two processors.
-template <class DeviceType> struct Arrivals {
-  PartnerLists<DeviceType> lists;
-  typename ArrayTypes<DeviceType>::t_int_1d indices;    // -1: goes to another processor
-  Kokkos::View<int *, DeviceType> starts;
-  Numbers<DeviceType> buffer;
-  int received_first, numbers_first, values, quads;
-  bigint used;
-
-  KOKKOS_INLINE_FUNCTION int begin_of(int k) const
-  {
-    if (k < received_first) return static_cast<int>(integer_of(buffer(k)));
-    return numbers_first + static_cast<int>(integer_of(buffer(numbers_first + k - received_first)));
-  }
-  KOKKOS_INLINE_FUNCTION int count_of(int k) const
-  {
-    return indices(k) < 0 ? 0 : static_cast<int>(integer_of(buffer(begin_of(k) + 1)));
-  }
-};
-
-template <class DeviceType> struct PlaceArrivals : Arrivals<DeviceType> {
-  KOKKOS_INLINE_FUNCTION void operator()(int k, int &sum, bool is_final) const
-  {
-    if (is_final) this->starts(k) = sum;
-    sum += this->count_of(k);
-  }
-};
-
-template <class DeviceType> struct Unpack : Arrivals<DeviceType> {
-  KOKKOS_INLINE_FUNCTION void operator()(int k, int &most) const
-  {
-    const int i = this->indices(k), count = this->count_of(k), quads = this->quads;
-    if (i < 0) return;
-    most = eepa::max(most, count);
-    int m = this->begin_of(k);
-    const bigint first = this->used + this->starts(k);
-    this->lists.first(i) = first;
-    this->lists.count(i) = count;
-    this->lists.owner(i) = integer_of(this->buffer(m));
-    m += head_size;
-    for (bigint at = first; at < first + count; at++) {
-      this->lists.ids(at) = integer_of(this->buffer(m++));
-      for (int q = 0; q < quads; q++) this->lists.quads(at * quads + q) = eepa::Quad{};
-      for (int v = 0; v < this->values; v++)
-        this->lists.quads(at * quads + v / 4).value[v % 4] = this->buffer(m++);
-    }
-  }
-};
-}    // namespace
 
 template <class DeviceType>
 int ContactPartnersKokkos<DeviceType>::pack_exchange(int sent, DAT::tdual_xfloat_2d &buffer,
