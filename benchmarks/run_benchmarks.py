@@ -138,13 +138,18 @@ def run_memory(s: Session) -> None:
     s.write("memory", rows, memory.table(rows))
 
 
-def run_many_particles(s: Session) -> None:
-    """what is lost when particles no longer fit the cache: 4,096 and 49,152 of them"""
+def dense_sizes(s: Session) -> List[cases.Case]:
+    """4,096 and 49,152 particles, which fit the cache and do not."""
     cell = 500 if s.quick else 4096
     sizes = [cases.dense(s.program, s.work, cell, copies) for copies in ((1, 1, 1), (2, 2, 3))]
     if s.quick:
         sizes = [size.lasting(50, 200) for size in sizes]
-    rows = many_particles.measure(s.program, sizes, s.rounds, s.work)
+    return sizes
+
+
+def run_many_particles(s: Session) -> None:
+    """what is lost when particles no longer fit the cache: 4,096 and 49,152 of them"""
+    rows = many_particles.measure(s.program, dense_sizes(s), s.rounds, s.work)
     s.write("many_particles", rows, many_particles.table(rows))
 
 
@@ -169,11 +174,7 @@ def run_liggghts(s: Session) -> None:
     if s.liggghts is None:
         print("no --liggghts PROGRAM: left out")
         return
-    cell = 500 if s.quick else 4096
-    sizes = [cases.dense(s.program, s.work, cell, copies) for copies in ((1, 1, 1), (2, 2, 3))]
-    if s.quick:
-        sizes = [size.lasting(50, 200) for size in sizes]
-    rows = liggghts.measure(s.program, s.liggghts, sizes, s.rounds, s.work)
+    rows = liggghts.measure(s.program, s.liggghts, dense_sizes(s), s.rounds, s.work)
     s.write("liggghts", rows, liggghts.table(rows))
 
 

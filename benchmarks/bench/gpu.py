@@ -2,19 +2,18 @@
 """The styles for KOKKOS in turn, on the lattice of in.lattice."""
 from __future__ import annotations
 
-import re
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Mapping, Sequence, Tuple
 
 from .lammps import Program, run_lammps
+from .lammps_log import LOOP
 from .statistics import median, paired_ratios
 
 INFILE = Path(__file__).resolve().parents[1] / "in.lattice"
 REFERENCE = "hooke"    #: gran/hooke/history
 LAWS = ("constant", "plateau", "exponent", "sds", "luding")
-_LOOP = re.compile(r"^Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -35,10 +34,10 @@ def read_loop(log: str) -> Tuple[float, int]:
 
     :raise ValueError: if there is none
     """
-    runs = _LOOP.findall(log)
+    runs = LOOP.findall(log)
     if not runs:
         raise ValueError("the log has no line 'Loop time of'")
-    seconds, steps, atoms = runs[-1]
+    seconds, _, steps, atoms = runs[-1]
     return 1e3 * float(seconds) / int(steps), int(atoms)
 
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Dict, Iterable
 
-_LOOP = re.compile(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms")
+#: seconds, ranks, steps, particles
+LOOP = re.compile(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms", re.MULTILINE)
 _CPU = re.compile(r"^([\d.]+)% CPU use with")
 _SECTION = re.compile(r"^(\w+)\s*\|\s*([\d.e+-]*)\s*\|\s*([\d.e+-]+)\s*\|\s*([\d.e+-]*)\s*\|")
 # as LAMMPS wrote it until 2013 and LIGGGHTS does
@@ -70,7 +71,7 @@ def read_run(lines: Iterable[str]) -> TimedRun:
 
 
 def _read_line(run: TimedRun, line: str) -> None:
-    loop = _LOOP.match(line)
+    loop = LOOP.match(line)
     if loop:
         run.loop = float(loop.group(1))
         run.ranks, run.steps, run.atoms = (int(loop.group(k)) for k in (2, 3, 4))

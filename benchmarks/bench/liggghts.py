@@ -47,15 +47,14 @@ def measure(program: Program, other: Path, cases: Sequence[Case], rounds: int, w
     folder.mkdir(parents=True, exist_ok=True)
     theirs = Program(other, program.mpirun, program.bind)
     rows: List[Dict] = []
-    for case in cases:
-        data = folder / f"{case.data.stem}.liggghts"
-        data.write_text(plain_data(case.data.read_text(encoding="utf-8")), encoding="utf-8")
+    plain = {case.data: folder / f"{case.data.stem}.liggghts" for case in cases}
+    for data, copy in plain.items():
+        copy.write_text(plain_data(data.read_text(encoding="utf-8")), encoding="utf-8")
     for k in range(rounds):
         for case in cases:
-            data = folder / f"{case.data.stem}.liggghts"
             ours = read_log(run_lammps(program, case.infile, folder, case.variables(ALIKE, folder)).log)
             rows.append(_row(case, ALIKE.name, k, ours))
-            other_run = read_log(run_lammps(theirs, INFILE, folder, variables(case, data)).log)
+            other_run = read_log(run_lammps(theirs, INFILE, folder, variables(case, plain[case.data])).log)
             rows.append(_row(case, LIGGGHTS, k, other_run))
             print(f"  round {k + 1} of {rounds}, {case.name}: {rows[-2]['ns']:.1f} and {rows[-1]['ns']:.1f} ns a "
                   "particle and step", flush=True)
@@ -74,13 +73,13 @@ def table(rows: Sequence[Dict]) -> str:
     cases = list(dict.fromkeys(row["case"] for row in rows))
     lines = []
     for case in cases:
+        ratio = median(paired_ratios([row for row in rows if row["case"] == case], LIGGGHTS, ALIKE.name, "style", "ns"))
         for style in (ALIKE.name, LIGGGHTS):
             own = [row for row in rows if row["style"] == style and row["case"] == case]
-            ratio = paired_ratios([row for row in rows if row["case"] == case], LIGGGHTS, ALIKE.name, "style", "ns")
             lost = "" if case == cases[0] else loss(rows, style, cases[0], case)
             lines.append([
                 f"{style}, {case}", f"{1.0e3 / median([row['ns'] for row in own]).value:.2f}",
-                median(ratio).text() if style == LIGGGHTS else "",
+                ratio.text() if style == LIGGGHTS else "",
                 f"{100.0 * lost.value:.1f} [{100.0 * lost.low:.1f}, {100.0 * lost.high:.1f}]" if lost else "",
                 f"{own[-1]['contacts'] / own[-1]['atoms']:.3f}", str(own[-1]["builds"])])
     return text_table(header, lines) + (
