@@ -15,7 +15,7 @@ html_title = f"eepa {release}"
 needs_sphinx = "5.1"             # include_patterns
 root_doc = "docs/index"
 include_patterns = ["docs/**", "lammps_pkg/doc/*.rst", "examples/**.md", "coarsen/*.md", "benchmarks/**.md",
-                    "tests/*.md", "tests/kernel/*.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"]
+                    "tests/*.md", "tests/kernel/*.md", "walls/*.md", "lammps_pkg/*.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"]
 exclude_patterns = [".*", "build*", "docs/_*"]
 
 extensions = ["myst_parser", "lammps", "katex", "repository"]
