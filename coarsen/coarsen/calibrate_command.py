@@ -105,7 +105,7 @@ class Simulation:
         self._done += 1
         study.write_text(yaml.safe_dump({"groups": groups}, sort_keys=False), encoding="utf-8")
         workflow.run_study(study, infiles, out, self._lmp, self._arguments.cores, self._arguments.ranks,
-                           ["--quiet", "all", *self._arguments.snakemake])
+                           ["--quiet", "all", *self._arguments.snakemake], self._arguments.switches)
         return out
 
     def _common(self, values: Mapping[str, float]) -> Dict[str, Any]:

@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
     _write_if_new(study, yaml.safe_dump(_study_of(arguments, sizes), sort_keys=False))
     infiles = arguments.infile.resolve().parent
     workflow.run_study(study, infiles, out, workflow.find_lmp(arguments.lmp), arguments.cores, arguments.ranks,
-                       arguments.snakemake)
+                       arguments.snakemake, arguments.switches)
     runs, _ = tidy(read_study(study), out, infiles)
     if not set(wanted) & set(runs):
         raise check.NothingToCompare(f"{out}: no log.lammps has lines `Result NAME NUMBER` of {', '.join(wanted)}: let "

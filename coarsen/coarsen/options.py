@@ -24,6 +24,8 @@ def add_running(parser: argparse.ArgumentParser, name: str) -> None:
     parser.add_argument("--lmp", default=None, help="LAMMPS with this package (the build folder's, or lmp)")
     parser.add_argument("--cores", type=int, default=cores(), help="in use at once (all)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of a run (1)")
+    parser.add_argument("--switches", default="", metavar="'...'",
+                        help="further command-line switches of LAMMPS in one argument, such as '-k on g 1 -sf kk'")
     parser.add_argument("--out", type=Path, default=Path(f"coarsen_{name}"),
                         help=f"folder of runs and results (coarsen_{name}); the same call goes on from it")
     parser.add_argument("--snakemake", nargs=argparse.REMAINDER, default=[],

@@ -36,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.plan:
         return 0
     workflow.run_study(arguments.study, infiles, out, workflow.find_lmp(arguments.lmp), arguments.cores,
-                       arguments.ranks, arguments.snakemake)
+                       arguments.ranks, arguments.snakemake, arguments.switches)
     (out / "study.yaml").write_text(arguments.study.read_text(encoding="utf-8"), encoding="utf-8")  # for the report
     runs, curves = tidy(table, out, infiles)
     runs.to_csv(out / "runs.csv", float_format="%.6g")

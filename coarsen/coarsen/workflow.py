@@ -37,11 +37,12 @@ def find_lmp(given: Union[None, str, Path]) -> Path:
 
 
 def run_study(study: Path, infiles: Path, out: Path, lmp: Path, cores: int, ranks: int = 1,
-              more: Sequence[str] = ()) -> None:
+              more: Sequence[str] = (), switches: str = "") -> None:
     """Runs what of the study is not done yet, so many cores at once, and shows how far it is. All that Snakemake
     says is in snakemake.log in `out`.
 
     :param more: further arguments of Snakemake, such as --profile slurm
+    :param switches: further command-line switches of LAMMPS, as in a shell
     :raise NotInstalled: without Snakemake
     :raise subprocess.CalledProcessError: when a run failed, after those that had begun have ended
     """
@@ -52,7 +53,7 @@ def run_study(study: Path, infiles: Path, out: Path, lmp: Path, cores: int, rank
     command = [snakemake, "--snakefile", str(SNAKEFILE), "--directory", str(out), "--cores", str(cores),
                "--rerun-incomplete", *more, "--config",
                f"study={study.resolve()}", f"infiles={infiles.resolve()}", f"out={out.resolve()}",
-               f"lmp={lmp}", f"ranks={ranks}"]
+               f"lmp={lmp}", f"ranks={ranks}", *([f"switches={switches}"] if switches else [])]
     with (out / "snakemake.log").open("w", encoding="utf-8") as log, subprocess.Popen(
             command, env={**os.environ, **mpi_settings()}, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, text=True) as running:

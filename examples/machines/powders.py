@@ -57,7 +57,7 @@ def lactose(out: Path, lmp: Path, cores: int) -> pd.DataFrame:
     for d, seeds in SIZES["lactose"]:
         arguments = argparse.Namespace(
             diameter=d, dref=1.0e-3, law="linear", seeds=seeds, first_seed=1, side=WIDTH, preshear=5.0e3,
-            out=out / f"lactose_d{1e3 * d:g}mm", lmp=lmp, cores=cores, ranks=1, snakemake=[])
+            out=out / f"lactose_d{1e3 * d:g}mm", lmp=lmp, cores=cores, ranks=1, snakemake=[], switches="")
         (found,) = Simulation(arguments, targets.assign(stress=np.nan))([LACTOSE])
         rows += [{"d": d, **dict(zip(targets["quantity"], values))} for values in found]
     return pd.DataFrame(rows)

@@ -118,6 +118,17 @@ class Runs(unittest.TestCase):
         self.assertEqual(status, 0, text)
         self.assertTrue((folder / "out of it/check/d=0.002,seed=2/infiles/press.lmp").is_file())
 
+    def test_switches_of_lammps(self):
+        (self.folder / "in.mine").write_text(INFILE + 'print "Result threads $(is_active(package,omp))"\n'
+                                                      'print "Result word ${word}"\n')
+        (self.folder / "study.yaml").write_text("groups: {one: {infile: in.mine}}\n")
+        status, text = coarsen(self.folder, "run", "study.yaml", "--lmp", LMP, "--switches",
+                               "-sf omp -pk omp 1 -var word '7 8'")
+        self.assertEqual(status, 0, text)
+        log = (self.folder / "coarsen_run/one/run/log.lammps").read_text()
+        self.assertIn("Result threads 1", log)
+        self.assertIn("Result word 7 8", log)
+
     def test_a_study_of_any_in_file_has_a_table(self):
         (self.folder / "study.yaml").write_text(
             "groups: {one: {infile: in.mine, d: [1e-3, 2e-3], seed: 1..2}}\n")
