@@ -5,7 +5,6 @@
 #include <eepa/dissipation.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -15,21 +14,13 @@ namespace LAMMPS_NS {
 /// sent to their owners. Kept only while a compute gran/eepa/energy/atom exists.
 class AtomLosses {
  public:
-  static constexpr int kinds = 6;
-  using Kinds = std::array<double, kinds>;
-
-  /// Losses in the order of the compute's columns.
-  static Kinds by_kind(const eepa::Dissipation &lost)
-  {
-    return {lost.hysteresis, lost.normal_dashpot, lost.tangential_dashpot,
-            lost.sliding,    lost.rolling,        lost.twisting};
-  }
+  static constexpr int kinds = eepa::Dissipation::Kinds::count;    // the compute's columns
 
   void start(int atoms) { lost.assign(static_cast<std::size_t>(atoms) * kinds, 0.0); }
   void add(int atom, const eepa::Dissipation &of_contact, double share)
   {
-    const Kinds more = by_kind(of_contact);
-    for (int k = 0; k < kinds; k++) row(atom)[k] += share * more[k];
+    const eepa::Dissipation::Kinds more = of_contact.by_kind();
+    for (int k = 0; k < kinds; k++) row(atom)[k] += share * more.value[k];
   }
   double *row(int atom) { return lost.data() + static_cast<std::size_t>(atom) * kinds; }
 

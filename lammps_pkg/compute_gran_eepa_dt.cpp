@@ -73,7 +73,7 @@ double ComputeGranEepaDt::compute_scalar()
   if (std::isinf(scalar) && !warned && comm->me == 0)
     error->warning(FLERR,
                    "compute {} gran/eepa/dt: there are no particles yet and the time step has no "
-                   "limit; tell of those to come with keyword particles",
+                   "limit; announce those to come with keyword particles",
                    id);
   warned = true;
   return scalar;

@@ -41,7 +41,7 @@ void ComputeGranEepaEnergy::compute_vector()
   invoked_vector = update->ntimestep;
   EnergyLedger sum;
   const auto add = [&sum](const EnergyLedger &ledger) {
-    sum.store(ledger.elastic, 1.0);
+    sum.elastic.add(ledger.elastic, 1.0);
     sum.dissipated.add(ledger.dissipated, 1.0);
     sum.wall_work += ledger.wall_work;
   };

@@ -5,7 +5,7 @@
 #include "wall_lanes.h"
 
 #include <eepa/dispatch.h>
-#include <eepa/status.h>
+#include <eepa/step.h>
 
 namespace LAMMPS_NS {
 
@@ -54,27 +54,13 @@ namespace {
     ContactOutcome evaluate(const eepa::Coefficients &c, const StepRequest &request,
                             const eepa::Contact &contact, bool first, double *values) const override
     {
-      eepa::History history = eepa::load_history<Layout>(values);
-      const eepa::History before = history;
-      const eepa::Response response = ContactLaw::evaluate(c, contact, request.time_step, history);
-      if (request.advance) eepa::store_history<Layout>(history, values);
-
-      ContactOutcome outcome;
-      outcome.wrench = ContactLaw::wrench(response, contact);
-      outcome.status = eepa::ContactStatus::of(response);
-      outcome.max_overlap = history.max_overlap;
-      if (request.wants_energy) outcome.energy = ContactLaw::stored_energy(c, contact, history);
-      if (request.wants_losses)
-        outcome.lost = eepa::dissipation_of_step<ContactLaw>(
-            c, contact, response, request.time_step, first, before, history, request.booked);
-      return outcome;
+      return eepa::step_contact<ContactLaw>(c, request, contact, first, values);
     }
 
     eepa::Dissipation open(const eepa::Coefficients &c, const StepRequest &request,
                            const eepa::Contact &contact, const double *values) const override
     {
-      return eepa::dissipation_of_opening<ContactLaw>(
-          c, contact, request.time_step, eepa::load_history<Layout>(values), request.booked);
+      return eepa::open_contact<ContactLaw>(c, request, contact, values);
     }
 
     ContactReport report(const eepa::Coefficients &c, const eepa::Contact &contact,

@@ -9,7 +9,7 @@
 #include <eepa/coefficients.h>
 #include <eepa/contact_law.h>
 #include <eepa/dissipation.h>
-#include <eepa/history.h>
+#include <eepa/step.h>
 
 #include <memory>
 
@@ -17,30 +17,8 @@ namespace LAMMPS_NS {
 
 class LAMMPS;
 
-/// What a force call requests for each contact.
-struct StepRequest {
-  double time_step = 0.0;       ///< step to the present positions; 0 in a set-up [time]
-  bool advance = false;         ///< keep the new state; a set-up does not change states
-  bool wants_energy = false;    ///< compute StoredEnergy
-  bool wants_losses = false;    ///< compute Dissipation of the step
-  bool booked = true;           ///< whether the step before was booked: see dissipation_of_step()
-
-  /// The request of a force call.
-  /// \param in_step  in a time step, else in a set-up
-  static StepRequest of_call(bool in_step, double dt, bool keep_ledger, bool ledger_starts)
-  {
-    return {in_step ? dt : 0.0, in_step, keep_ledger, keep_ledger && in_step, !ledger_starts};
-  }
-};
-
-/// Result of a force call for one contact.
-struct ContactOutcome {
-  eepa::Wrench<double> wrench;
-  int status;                   ///< see eepa::ContactStatus
-  double max_overlap;           ///< delta_max after the call [length]
-  eepa::StoredEnergy energy;    ///< if requested
-  eepa::Dissipation lost;       ///< if requested
-};
+using eepa::ContactOutcome;
+using eepa::StepRequest;
 
 /// A contact of a particle and a wall that goes on from the step before.
 struct WallContact {
@@ -57,8 +35,8 @@ struct ContactReport {
 };
 
 /// Everything about contacts that depends on the law. The pair style, its threaded variant and each
-/// wall hold one engine, made once a run for the law that the user chose; their own code is the
-/// same for all laws.
+/// wall hold one engine, made when the law that the user chose is known; their own code is the same
+/// for all laws.
 ///
 /// There are two kinds of evaluation. Those in lanes take several contacts, in steps that need forces
 /// and at walls energies. The scalar one takes any single contact and computes what is requested.
@@ -129,8 +107,8 @@ const LAMMPS_NS::ContactEngine *eepa_make_engine_x86_64_v3(const eepa::LawSettin
 }
 
 namespace LAMMPS_NS::detail {
-// Eigen aligns its types of 2, 4, ... numbers as the instruction set likes it. What a caller and an
-// engine share has none of them, and so one layout.
+// Eigen aligns its types of 2, 4, ... numbers as the instruction set likes it. Types that cross this
+// interface contain no such type, so their layout is the same for all instruction sets.
 template <class... Shared>
 constexpr bool one_layout = ((alignof(Shared) <= alignof(double)) && ...);
 static_assert(

@@ -100,15 +100,14 @@ void ContactHistory::force_is_computed()
     error->all(FLERR,
                "pair_style gran/eepa: run with pre no after a command that set the system up anew, "
                "such as write_restart: particles are no more where the neighbour list has them; "
-               "leave pre no away");
+               "leave out pre no");
   partners_are_newest = false;
 }
 
 void ContactHistory::end_interrupted_run()
 {
   if (partners_are_newest) return;
-  int mine =
-      !list_is_old && atom_count_is_listed() && nall_neigh == atom->nlocal + atom->nghost;
+  int mine = !list_is_old && atom_count_is_listed() && nall_neigh == atom->nlocal + atom->nghost;
   for (int i = 0; i < atom->nlocal; i++) mine &= place_of(i) == i;
   int all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
@@ -154,8 +153,8 @@ void ContactHistory::keep_partners_in_new_pages()
     valuepartner[i] = dpage_atom->get(dnum * n);
     if (!partner[i] || !valuepartner[i])
       error->one(FLERR,
-                 "neigh_modify one {} is less than the {} contacts that a particle has: allowed "
-                 "are more",
+                 "neigh_modify one = {} is not allowed: a particle has {} contacts, and it must be "
+                 "larger",
                  neighbor->oneatom, n);
     std::copy_n(id, n, partner[i]);
     std::copy_n(value, dnum * n, valuepartner[i]);

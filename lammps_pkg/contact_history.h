@@ -21,13 +21,11 @@ namespace LAMMPS_NS {
 ///   ghosts other local indices by then, so contacts across a periodic or a processor boundary
 ///   would get the IDs of other particles;
 /// - which particle an index of the neighbour list means, also after a fix that runs before this
-/// one
-///   has deleted or inserted particles;
+///   one has deleted or inserted particles;
 /// - which particle a list of partners belongs to: each list has the ID that its particle had when
 ///   the list was made;
 /// - whether the histories of a restart file fit: each list of partners has its particle's ID and
-/// the
-///   number of values a contact, and both are checked before the list is read.
+///   the number of values a contact, and both are checked before the list is read.
 class ContactHistory : public FixNeighHistory {
  public:
   /// Replaces the place holder in LAMMPS's list of fixes by a new ContactHistory, with the
@@ -118,7 +116,8 @@ class ContactHistory : public FixNeighHistory {
   bool list_is_old = true;         // particles may have got other indices since it was made
   bool just_restarted = false;     // no neighbour list was made since a restart file was read
   bool parting_contacts = false;
-  int exchange_head = 2;    // what a particle takes along beside its partners: their number, and `owner`
+  // what a particle takes along beside its partners: their number, and `owner`
+  int exchange_head = 2;
 
  private:
   static Fix *create(LAMMPS *, int, char **);

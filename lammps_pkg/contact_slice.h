@@ -57,9 +57,10 @@ struct ContactSlice {
 
   double memory_usage() const
   {
-    return static_cast<double>(
-        touching.capacity() * sizeof(TouchingPair) + contacts.capacity() * sizeof(FoundContact) +
-        deferred.capacity() * sizeof(DeferredForce));
+    return static_cast<double>(touching.capacity() * sizeof(TouchingPair) +
+                               contacts.capacity() * sizeof(FoundContact) +
+                               deferred.capacity() * sizeof(DeferredForce) +
+                               deferred_losses.capacity() * sizeof(DeferredLoss));
   }
   bool writes(int atom) const
   {

@@ -15,14 +15,6 @@ struct EnergyLedger {
   eepa::Dissipation dissipated;    ///< since the ledger began
   double wall_work = 0.0;          ///< work on particles since the ledger began, walls only
 
-  void store(const eepa::StoredEnergy &energy, double share)
-  {
-    elastic.normal += share * energy.normal;
-    elastic.tangential += share * energy.tangential;
-    elastic.rolling += share * energy.rolling;
-    elastic.twisting += share * energy.twisting;
-  }
-
   static bool wanted(Modify *modify)
   {
     return !modify->get_compute_by_style("^gran/eepa/energy").empty();

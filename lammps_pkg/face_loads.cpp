@@ -2,7 +2,6 @@
 #include "face_loads.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -18,15 +17,11 @@ void FaceLoads::add(int face, const eepa::Contact &contact, const eepa::Wrench<d
                     double time_step)
 {
   auto &of_face = sums_[face];
-  const double normal_force = eepa::dot(wrench.force, contact.normal);
-  const double normal_velocity = eepa::dot(contact.velocity, contact.normal);
-  const Vec3 shear = normal_force * contact.normal - wrench.force;
-  of_face[NORMAL_FORCE] += normal_force;
-  for (int k = 0; k < 3; k++) of_face[SHEAR_FORCE + k] += shear[k];
-  // a force that pulls does not wear
-  const double pressing = std::max(normal_force, 0.0) * time_step;
-  of_face[SLIDING_WORK] += pressing * eepa::tangential_velocity(contact, normal_velocity).norm();
-  of_face[IMPACT_WORK] += pressing * std::max(-normal_velocity, 0.0);
+  const eepa::SurfaceLoad load = eepa::load_on_surface(contact, wrench, time_step);
+  of_face[NORMAL_FORCE] += load.normal_force;
+  for (int k = 0; k < 3; k++) of_face[SHEAR_FORCE + k] += load.shear[k];
+  of_face[SLIDING_WORK] += load.sliding_work;
+  of_face[IMPACT_WORK] += load.impact_work;
 }
 
 void FaceLoads::sum(MPI_Comm world)

@@ -2,7 +2,7 @@
 #ifndef LMP_EEPA_FACE_LOADS_H
 #define LMP_EEPA_FACE_LOADS_H
 
-#include <eepa/body.h>
+#include <eepa/wear.h>
 
 #include <mpi.h>
 

@@ -34,7 +34,7 @@ bool FixWallGranEepa::lists_bound_motion() const
 /// Whether candidates must be collected again before this force call.
 bool FixWallGranEepa::candidates_are_old() const
 {
-  // particles move in memory when lists are made, and where others have them moved without
+  // Particles change their local indices when a list is made, and when another fix reorders them.
   if (update->setupflag != 0 || neighbor->ago == 0 || particles_are_moved) return true;
   if (!candidates_stay()) return true;
   if (!(travelled() <= travel_left)) return true;

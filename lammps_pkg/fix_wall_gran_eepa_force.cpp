@@ -65,7 +65,7 @@ void FixWallGranEepa::post_force(int vflag)
   atom_losses.clear();
   if (keep_ledger) atom_losses = ComputeGranEepaEnergyAtom::find(modify);
   if (face_loads && step) face_loads->start_step();
-  // what is asked of single contacts is not known of several side by side
+  // the evaluation in lanes gives neither losses nor the status that these requests need
   may_wait = !waiting_outcomes.empty() && step && !keep_ledger && !contact_table && !face_loads;
   // an error may have ended the run before in the midst of a force call
   waiting_contacts.clear();
@@ -238,12 +238,11 @@ void FixWallGranEepa::evaluate(const eepa::Body<double> &body, const eepa::WallP
   FaceHistory fresh;
   FaceHistory &history = touch.history ? *touch.history : fresh;
   const eepa::Contact contact = eepa::contact_at_wall(body, wall, request.time_step);
-  const bool touched_in_setup =
-      books_setup() && wall.overlap + contact.velocity.dot(contact.normal) * dt > 0.0;
+  const bool touched_in_setup = books_setup() && eepa::overlap_before(contact, dt) > 0.0;
   const ContactOutcome outcome = engine->evaluate(
       coefficients, request, contact, !touch.history && !touched_in_setup, history.values.data());
   if (keep_ledger) {
-    ledger.store(outcome.energy, 1.0);
+    ledger.elastic.add(outcome.energy, 1.0);
     if (request.wants_losses) book(touch.particle, outcome.lost);
     // at the end of the step, as the force
     eepa::WallPoint<double> now = wall;
@@ -288,7 +287,7 @@ void FixWallGranEepa::finish(const Touch &touch, const eepa::Body<double> &body,
   }
 }
 
-/// A contact of the step before that is none any more.
+/// Ends a contact that existed in the last step.
 void FixWallGranEepa::part(int i, const eepa::Body<double> &body, const Vec3 &centre,
                            const FaceHistory &history, bool member)
 {
@@ -326,7 +325,7 @@ void FixWallGranEepa::part_after_setup(int candidate, const eepa::Body<double> &
     if (known) continue;
     const eepa::WallPoint<double> wall = wall_point(point, body, centre);
     const eepa::Contact contact = eepa::contact_at_wall(body, wall, request.time_step);
-    if (wall.overlap + contact.velocity.dot(contact.normal) * dt > 0.0)
+    if (eepa::overlap_before(contact, dt) > 0.0)
       book(i, engine->open(coefficients, request, contact, none.values.data()));
   }
 }
@@ -383,5 +382,5 @@ void FixWallGranEepa::tabulate(int i, const eepa::Body<double> &body,
 void FixWallGranEepa::book(int i, const eepa::Dissipation &lost)
 {
   ledger.dissipated.add(lost, 1.0);
-  for (auto *compute : atom_losses) compute->add(i, AtomLosses::by_kind(lost).data());
+  for (auto *compute : atom_losses) compute->add(i, lost.by_kind().value);
 }

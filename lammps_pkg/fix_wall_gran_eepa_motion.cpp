@@ -102,7 +102,7 @@ void FixWallGranEepa::initial_integrate(int /*vflag*/)
   if (needs_setup)
     error->all(FLERR,
                "{}: load was given by fix_modify after the last set-up, and its forces are not "
-               "known: a run with pre no can not follow; leave pre no away",
+               "known: a run with pre no can not follow; leave out pre no",
                style_name());
   // the next force call sees the positions at the end of this step
   evaluate_motion();
@@ -218,7 +218,7 @@ void FixWallGranEepa::measure_rotation()
   rotation_is_new = true;
 }
 
-/// fix_modify ID still|velocity ...|wiggle ...|shear ...|load ...
+/// fix_modify ID still|velocity ...|wiggle ...|shear ...|rotate ...|load ...
 int FixWallGranEepa::modify_param(int narg, char **arg)
 {
   eepa::MotionArguments next;

@@ -26,8 +26,7 @@ using eepa::Vec3;
 
 ParticleArrays PairGranEepa::particle_arrays()
 {
-  return {atom->x[0], atom->v[0], atom->omega[0], atom->radius, masses.masses(),
-          atom->type};
+  return {atom->x[0], atom->v[0], atom->omega[0], atom->radius, masses.masses(), atom->type};
 }
 
 void PairGranEepa::compute(int eflag, int vflag)
@@ -41,7 +40,7 @@ void PairGranEepa::compute(int eflag, int vflag)
   for (auto &slice : slices) {
     if (slice.deep_i >= 0) stop_at_overlap(slice.deep_i, slice.deep_j);
     if (!keep_ledger) continue;
-    ledger.store(slice.ledger.elastic, 1.0);
+    ledger.elastic.add(slice.ledger.elastic, 1.0);
     ledger.dissipated.add(slice.ledger.dissipated, 1.0);
   }
   end_force_call();
@@ -292,7 +291,7 @@ void PairGranEepa::evaluate_scalar(ContactSlice &slice, const FoundContact &foun
 
   if (keep_ledger) {
     const double share = share_of_pair(j);
-    slice.ledger.store(outcome.energy, factor * share);
+    slice.ledger.elastic.add(outcome.energy, factor * share);
     if (request.wants_losses) slice.book(i, j, outcome.lost, factor, share);
   }
   const Vec3 pair_force = factor * outcome.wrench.force;
@@ -326,15 +325,14 @@ void PairGranEepa::book_opening(ContactSlice &slice, int i, int neighbor,
 
 void PairGranEepa::stop_at_overlap(int i, int j) const
 {
-  const double reach = atom->radius[i] + atom->radius[j];
-  const double overlap = reach - (Vec3(atom->x[i]) - Vec3(atom->x[j])).norm();
+  const double overlap = eepa::overlap_of_spheres(Vec3(atom->x[i]), atom->radius[i],
+                                                  Vec3(atom->x[j]), atom->radius[j]);
   error->one(
       FLERR,
       "pair_style gran/eepa: atoms {} and {} overlap by {:.6g} at step {}, more than a radius "
       "({:.6g} and {:.6g}): the time step is too large, the stiffness too small or the start "
-      "too dense; what builds one clump, or "
-      "a floor that does not move, belongs into fix rigid or fix freeze or has to be left out with "
-      "neigh_modify exclude",
+      "too dense; particles of a clump belong into fix rigid, those of a floor into fix freeze, or "
+      "their pairs are left out with neigh_modify exclude",
       atom->tag[i], atom->tag[j], overlap, update->ntimestep, atom->radius[i], atom->radius[j]);
   std::abort();    // error->one does not return
 }

@@ -128,9 +128,9 @@ ContactCensus PairGranEepa::census(int groupbit)
       const int ends = ((atom->mask[i] & groupbit) ? 1 : 0) + ((atom->mask[j] & groupbit) ? 1 : 0);
       if (ends == 0) continue;
       const double share = share_of_pair(j);
-      const double reach = atom->radius[i] + atom->radius[j];
-      const Vec3 offset = Vec3(atom->x[i]) - Vec3(atom->x[j]);
-      const double ratio = (reach - offset.norm()) / reach;
+      const double ratio = eepa::overlap_of_spheres(Vec3(atom->x[i]), atom->radius[i],
+                                                    Vec3(atom->x[j]), atom->radius[j]) /
+          eepa::size_of_pair(atom->radius[i], atom->radius[j]);
       const eepa::Branch branch = eepa::ContactStatus::branch(status);
       sum[0] += share;
       if (branch == eepa::Branch::loading) sum[1] += share;

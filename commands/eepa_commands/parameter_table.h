@@ -19,6 +19,7 @@
 // present restart_format plus 1. Files of older formats are still read and leave the parameter at
 // its default. Then it needs its use in the kernel and its sentence in the documentation, whose
 // tables `EEPA_WRITE_DOCUMENTATION=1 build/test_parser --gtest_filter='*Documentation*'` writes.
+// docs/adding_a_law.md has all places, those of the kernel too.
 //
 // An entry is one of two:
 //

@@ -28,7 +28,7 @@ namespace {
         const double interval = reader.number("faces");
         if (wall.shape.kind != WallShape::mesh)
           refuse(std::string("faces is not allowed with wall ") + wall.shape.kind_name() +
-                 ": only a mesh has faces to tell of");
+                 ": only a mesh has faces");
         if (!(interval >= 1.0 && interval <= 2147483647.0 && interval == std::floor(interval)))
           refuse_value("faces", interval, "a whole number of steps, >= 1");
         wall.face_interval = static_cast<int>(interval);

@@ -44,7 +44,7 @@ struct RotationArguments {
 
 /// Motion of a wall, as typed: a drive, and beside it a sliding surface or a rotation.
 struct MotionArguments {
-  /// the translation; shear or rotate where that is all
+  /// Of the translation. Where there is none: shear or rotate, whichever is given.
   WallDrive drive = WallDrive::still;
   std::array<Quantity, 3> velocity;    ///< [length/time]
   int wiggle_axis = 0;

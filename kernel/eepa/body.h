@@ -52,7 +52,7 @@ EEPA_FUNCTION ContactOf<Real> contact_of(const Body<Real> &i, const Body<Real> &
   ContactOf<Real> contact;
   const Vector3<Real> offset = i.x - j.x;
   const Real distance = sqrt(squared_length(offset));
-  contact.size = i.radius + j.radius;
+  contact.size = size_of_pair(i.radius, j.radius);
   contact.overlap = contact.size - distance;
   const Real inverse_distance = 1.0 / distance;    // one division, not three
   contact.normal = inverse_distance * offset;
@@ -85,7 +85,7 @@ EEPA_FUNCTION ContactOf<Real> contact_at_wall(const Body<Real> &i, const WallPoi
   const Real infinite(HUGE_VAL);
   contact.normal = wall.normal;
   contact.overlap = wall.overlap;
-  contact.size = 2.0 * i.radius;
+  contact.size = size_at_wall(i.radius);
   contact.effective_mass = effective_mass(i.mass, infinite);
   contact.effective_radius = effective_radius(i.radius, infinite);
   contact.velocity = i.v - wall.velocity;

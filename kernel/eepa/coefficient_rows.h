@@ -12,8 +12,9 @@
 namespace eepa {
 
 namespace detail {
-  /// The numbers of CoefficientsOf that the evaluation in lanes reads, in rows of 4. Rows of which
-  /// a law reads nothing are not fetched, so those that every law reads come first.
+  /// The numbers of CoefficientsOf that the evaluation in lanes reads, in rows of 4; the last row
+  /// may be shorter. Rows of which a law reads nothing are not fetched, so those that every law
+  /// reads come first.
   template <class Number>
   constexpr std::array<Number CoefficientsOf<Number>::*, 20> row_members = {
       &CoefficientsOf<Number>::k1,
@@ -47,24 +48,29 @@ namespace detail {
 /// processor reads at once.
 class CoefficientRows {
  public:
-  static constexpr std::size_t rows = detail::row_members<double>.size() / 4;
+  static constexpr std::size_t numbers = detail::row_members<double>.size();
+  static constexpr std::size_t rows = (numbers + 3) / 4;
 
-  explicit CoefficientRows(const Coefficients &c)
+  EEPA_FUNCTION explicit CoefficientRows(const Coefficients &c)
   {
-    for (std::size_t k = 0; k < 4 * rows; k++) numbers_[k] = c.*detail::row_members<double>[k];
+    for (std::size_t k = 0; k < numbers; k++) numbers_[k] = c.*detail::row_members<double>[k];
   }
   EEPA_FUNCTION const double *row(std::size_t which) const { return numbers_ + 4 * which; }
 
  private:
-  static_assert(detail::row_members<double>.size() % 4 == 0, "rows are full");
-  static_assert(detail::row_members<double>.size() * sizeof(double) ==
-                    offsetof(Coefficients, loading_loss),
+  static_assert(numbers * sizeof(double) == offsetof(Coefficients, loading_loss),
                 "every Number of CoefficientsOf has its place in a row");
-  alignas(32) double numbers_[4 * rows];
+  alignas(32) double numbers_[4 * rows] = {};
 };
 
 #ifdef EEPA_HAS_LANES
 namespace detail {
+  template <std::size_t k>
+  EEPA_FUNCTION void set_number(CoefficientsOf<Lanes> &c, const Lanes &value)
+  {
+    if constexpr (k < CoefficientRows::numbers) c.*row_members<Lanes>[k] = value;
+  }
+
   /// Reads one row of all lanes into the members that stand in it.
   template <std::size_t row>
   EEPA_FUNCTION void gather_row(const LanePointers<const CoefficientRows> &at,
@@ -73,10 +79,10 @@ namespace detail {
     LanePointers<const double> numbers;
     for (std::size_t lane = 0; lane < Lanes::size(); lane++) numbers[lane] = at[lane]->row(row);
     const std::array<Lanes, 4> column = gather_rows_of_4(numbers);
-    c.*row_members<Lanes>[4 * row] = column[0];
-    c.*row_members<Lanes>[4 * row + 1] = column[1];
-    c.*row_members<Lanes>[4 * row + 2] = column[2];
-    c.*row_members<Lanes>[4 * row + 3] = column[3];
+    set_number<4 * row>(c, column[0]);
+    set_number<4 * row + 1>(c, column[1]);
+    set_number<4 * row + 2>(c, column[2]);
+    set_number<4 * row + 3>(c, column[3]);
   }
 
   template <std::size_t... row>

@@ -10,7 +10,7 @@ namespace eepa {
 template <class Real> struct ContactOf {
   Vector3<Real> normal;              ///< u, unit vector pointing at i
   Real overlap;                      ///< delta = R_i + R_j - r > 0 [length]
-  Real size;                         ///< d: R_i + R_j, at a wall 2 R_i [length]
+  Real size;                         ///< d, see size_of_pair(), size_at_wall() [length]
   Real effective_mass;               ///< m*, see effective_mass()
   Real effective_radius;             ///< R*, see effective_radius(); for laws that read it
   Vector3<Real> velocity;            ///< v_i - v_j [length/time]
@@ -48,6 +48,30 @@ EEPA_FUNCTION Real twist_of_pair(const Vector3<Real> &normal, const Vector3<Real
                                  double time_step)
 {
   return Real(0.5 * time_step) * dot(angular_sum, normal);
+}
+
+/// Overlap of two spheres; negative where they do not touch [length]
+EEPA_FUNCTION double overlap_of_spheres(const Vec3 &centre_i, double radius_i, const Vec3 &centre_j,
+                                        double radius_j)
+{
+  return radius_i + radius_j - std::sqrt(squared_length<double>(centre_i - centre_j));
+}
+
+/// Overlap one step ago; negative where the partners did not touch [length]
+EEPA_FUNCTION double overlap_before(const Contact &c, double time_step)
+{
+  return c.overlap + dot(c.velocity, c.normal) * time_step;
+}
+
+/// Size d of a contact, to which its coefficients scale: R_i + R_j between particles [length]
+template <class Real> EEPA_FUNCTION Real size_of_pair(const Real &radius_i, const Real &radius_j)
+{
+  return radius_i + radius_j;
+}
+/// The same at a wall: 2 R_i.
+template <class Real> EEPA_FUNCTION Real size_at_wall(const Real &radius)
+{
+  return 2.0 * radius;
 }
 
 /// m* = m_i m_j / (m_i + m_j); where one mass is infinite (frozen particle, wall), the other mass.

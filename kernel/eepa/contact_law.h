@@ -34,6 +34,13 @@ struct StoredEnergy {
   double rolling = 0.0;       ///< of the rolling spring
   double twisting = 0.0;      ///< of the twisting spring
   EEPA_FUNCTION double total() const { return normal + tangential + rolling + twisting; }
+  EEPA_FUNCTION void add(const StoredEnergy &other, double share)
+  {
+    normal += share * other.normal;
+    tangential += share * other.tangential;
+    rolling += share * other.rolling;
+    twisting += share * other.twisting;
+  }
 };
 
 /// Coefficients of the dashpots of a contact [mass/time]

@@ -40,10 +40,14 @@ template <class Function>
 auto with_law(const LawSettings &settings, RollingModel rolling, TwistingModel twisting,
               Function &&function)
 {
-  if (settings.law == Law::plateau)
-    return detail::with_models<PlateauLaw>(rolling, twisting, function);
-  if (settings.law == Law::luding)
-    return detail::with_models<LudingLaw>(rolling, twisting, function);
+  switch (settings.law) {    // without a default, so that compilers warn of a law that is left out
+    case Law::plateau:
+      return detail::with_models<PlateauLaw>(rolling, twisting, function);
+    case Law::luding:
+      return detail::with_models<LudingLaw>(rolling, twisting, function);
+    case Law::linear:
+      break;
+  }
   if (settings.exponent == 1.0)
     return detail::with_models<LinearLaw<UnitExponent>>(rolling, twisting, function);
   return detail::with_models<LinearLaw<GeneralExponent>>(rolling, twisting, function);

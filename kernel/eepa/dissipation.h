@@ -16,6 +16,15 @@ struct Dissipation {
   double rolling = 0.0;
   double twisting = 0.0;
 
+  /// The losses side by side, in the order of their declaration.
+  struct Kinds {
+    static constexpr int count = 6;
+    double value[count];
+  };
+  EEPA_FUNCTION Kinds by_kind() const
+  {
+    return {{hysteresis, normal_dashpot, tangential_dashpot, sliding, rolling, twisting}};
+  }
   EEPA_FUNCTION double total() const
   {
     return hysteresis + normal_dashpot + tangential_dashpot + sliding + rolling + twisting;
@@ -38,8 +47,8 @@ struct Dissipation {
 namespace detail {
   /// Power that a step books for the present force of a dashpot.
   /// \param force, speed  |f| and |v|
-  /// \param power  -f.v: |f| |v|, or less where a slider has just let go of a spring, whose force
-  ///        is then in f; < 0 where that spring drives
+  /// \param power  -f.v. It is |f| |v| unless the slider has just let go of a spring: f then has
+  ///        that spring's force, and the power is negative where that force drives the motion
   EEPA_FUNCTION double dashpot_now(double viscous, double force, double speed, double power)
   {
     if (!(viscous > 0.0)) return 0.0;
@@ -92,8 +101,7 @@ namespace detail {
   {
     using Normal = typename ContactLaw::Normal;
     const double normal_velocity = dot(contact.velocity, contact.normal);
-    double overlap = contact.overlap + normal_velocity * time_step;
-    if (overlap < 0.0) overlap = 0.0;
+    const double overlap = eepa::max(overlap_before(contact, time_step), 0.0);
     const NormalForce normal = Normal::force(c, scale, overlap, last.max_overlap);
     const Dashpots<double> viscous = dashpots<Normal>(c, scale, contact.effective_mass, overlap);
 
@@ -147,11 +155,8 @@ EEPA_FUNCTION Dissipation dissipation_of_step(const Coefficients &c, const Conta
   const double normal_velocity = dot(contact.velocity, contact.normal);
   // a contact that starts with an overlap (first step of a packing) was not loaded up to it
   double loaded = before.max_overlap;
-  if (loaded == 0.0) {
-    loaded = contact.overlap + normal_velocity * time_step;
-    if (loaded < 0.0) loaded = 0.0;
-    if (loaded > contact.overlap) loaded = contact.overlap;
-  }
+  if (loaded == 0.0)
+    loaded = eepa::min(eepa::max(overlap_before(contact, time_step), 0.0), contact.overlap);
   lost.hysteresis = ContactLaw::Normal::loss(c, scale, loaded, after.max_overlap);
   if (!first)
     detail::book_step_before<ContactLaw>(c, scale, contact, time_step, before,
@@ -225,8 +230,7 @@ EEPA_FUNCTION Dissipation dissipation_of_opening(const Coefficients &c, const Co
   const double normal_velocity = dot(contact.velocity, contact.normal);
   if (contact.overlap > 0.0) {
     // what it stored one step ago, less the trapezoid work of the force then
-    double overlap = contact.overlap + time_step * normal_velocity;
-    if (overlap < 0.0) overlap = 0.0;
+    const double overlap = eepa::max(overlap_before(contact, time_step), 0.0);
     lost.hysteresis = Normal::elastic_energy(c, scale, overlap, last.max_overlap) -
         0.5 * time_step * normal_velocity *
             Normal::force(c, scale, overlap, last.max_overlap).force;

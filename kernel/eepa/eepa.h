@@ -8,6 +8,8 @@
 #include "dispatch.h"
 #include "dissipation.h"
 #include "status.h"
+#include "step.h"
 #include "time_step.h"
+#include "wear.h"
 
 #endif

@@ -60,7 +60,7 @@ EEPA_FUNCTION Vector3<Lanes> select(const Lanes::mask_type &condition, const Vec
 }
 #endif
 
-/// base^exponent; each lane gets the result of the C library for a double.
+/// base^exponent; each lane gets the number that the C library gives for a double.
 template <class Real> EEPA_FUNCTION Real pow(const Real &base, double exponent)
 {
   // of Hertz's law: as exact, many times as fast, and the same bits on every processor

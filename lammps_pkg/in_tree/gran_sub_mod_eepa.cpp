@@ -99,14 +99,17 @@ void GranSubModNormalKernel<NormalLaw>::mix_coeffs(double *icoeffs, double *jcoe
 
 template <class NormalLaw> double GranSubModNormalKernel<NormalLaw>::calculate_forces()
 {
+  static_assert(NormalLaw::law != eepa::Law::plateau, "its friction bound has a part without mu");
   const bool pair = gm->contact_type == PAIR;
-  eepa::Scale scale = eepa::contact_scale(coefficients, pair ? gm->radsum : 2.0 * gm->radi);
-  scale.effective_radius = pair ? eepa::effective_radius(gm->radi, gm->radj) : gm->radi;
+  eepa::Scale scale = eepa::contact_scale(
+      coefficients, pair ? eepa::size_of_pair(gm->radi, gm->radj) : eepa::size_at_wall(gm->radi));
+  scale.effective_radius = eepa::effective_radius(gm->radi, pair ? gm->radj : HUGE_VAL);
   double &max_overlap = gm->history[history_index];
   const eepa::NormalForce normal =
       NormalLaw::force(coefficients, scale, gm->delta, std::fabs(max_overlap));
   if (gm->history_update) max_overlap = normal.max_overlap;
-  friction_bound = normal.coulomb_force > 0.0 ? normal.coulomb_force : 0.0;
+  // LAMMPS multiplies it with mu
+  friction_bound = eepa::max(normal.coulomb_force, 0.0);
   return normal.force;
 }
 

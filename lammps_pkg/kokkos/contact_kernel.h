@@ -4,14 +4,13 @@
 
 #include "contact_step.h"
 
-#include <eepa/contact_law.h>
+#include <eepa/step.h>
 
 namespace LAMMPS_NS {
 
 /// The contacts of one particle of a neighbour list, which one thread evaluates.
 /// \tparam tallies  whether the step asks for more than forces: a set-up, energies, virial or losses
 template <class DeviceType, class ContactLaw, bool tallies> class ContactKernel {
-  using Layout = typename ContactLaw::Layout;
   using Vec3 = eepa::Vec3;
 
  public:
@@ -83,12 +82,11 @@ template <class DeviceType, class ContactLaw, bool tallies> class ContactKernel 
     if constexpr (tallies) {
       if (s.request.wants_losses) {
         const int j = neighbor & NEIGHMASK;
-        const double time_step = s.request.time_step;
-        const eepa::Contact contact = eepa::contact_of(s.body_of(i), s.body_of(j), time_step);
+        const eepa::Contact contact =
+            eepa::contact_of(s.body_of(i), s.body_of(j), s.request.time_step);
         s.book(i, j,
-               eepa::dissipation_of_opening<ContactLaw>(
-                   s.coefficients_of(i, j), contact, time_step,
-                   eepa::load_history<Layout>(s.rows.history(slot)), s.request.booked),
+               eepa::open_contact<ContactLaw>(s.coefficients_of(i, j), s.request, contact,
+                                              s.rows.history(slot)),
                s.factor_of(neighbor), sums);
       }
     }
@@ -98,39 +96,28 @@ template <class DeviceType, class ContactLaw, bool tallies> class ContactKernel 
   KOKKOS_INLINE_FUNCTION void evaluate(int i, int j, double factor, bigint slot, Vec3 &force,
                                        Vec3 &torque, StepSums &sums) const
   {
-    const double time_step = s.request.time_step;
     const eepa::Coefficients &c = s.coefficients_of(i, j);
     const eepa::Contact contact =
-        eepa::contact_of<ContactLaw>(s.body_of(i), s.body_of(j), time_step);
+        eepa::contact_of<ContactLaw>(s.body_of(i), s.body_of(j), s.request.time_step);
     if (eepa::too_deep(contact.overlap, eepa::min(double(s.radius(i)), double(s.radius(j)))))
       s.note_too_deep(i, j);
 
-    const eepa::QuadRow<eepa::Quad> row = s.rows.history(slot);
-    eepa::History history = eepa::load_history<Layout>(row);
-    const eepa::History before = history;
-    const eepa::Response response = ContactLaw::evaluate(c, contact, time_step, history);
-    if (!tallies || s.request.advance) eepa::store_history<Layout>(history, row);
-    const int status = eepa::ContactStatus::of(response), last = s.rows.status(slot);
-    if (status != last) s.rows.status(slot) = status;
+    const int last = s.rows.status(slot);
+    const eepa::ContactOutcome outcome = eepa::step_contact<ContactLaw, !tallies>(
+        c, s.request, contact, last == eepa::ContactStatus::none, s.rows.history(slot));
+    if (outcome.status != last) s.rows.status(slot) = outcome.status;
 
-    const eepa::Wrench<double> wrench = ContactLaw::wrench(response, contact);
+    const eepa::Wrench<double> &wrench = outcome.wrench;
     const Vec3 pair_force = factor * wrench.force;
     force += pair_force;
     torque += factor * wrench.torque_i;
     if (j < s.written) s.add_wrench(j, -pair_force, factor * wrench.torque_j);
 
     if constexpr (tallies) {
-      eepa::StoredEnergy energy;
-      if (s.request.wants_energy) energy = ContactLaw::stored_energy(c, contact, history);
-      if (s.tallies.ledger) sums.store(energy, factor * s.share_of(j));
-      if (s.request.wants_losses)
-        s.book(i, j,
-               eepa::dissipation_of_step<ContactLaw>(c, contact, response, time_step,
-                                                     last == eepa::ContactStatus::none, before,
-                                                     history, s.request.booked),
-               factor, sums);
+      if (s.tallies.ledger) sums.elastic.add(outcome.energy, factor * s.share_of(j));
+      if (s.request.wants_losses) s.book(i, j, outcome.lost, factor, sums);
       if (s.tallies.any_of_lammps())
-        s.tally(i, j, factor * energy.total(), pair_force,
+        s.tally(i, j, factor * outcome.energy.total(), pair_force,
                 Vec3(s.x(i, 0) - s.x(j, 0), s.x(i, 1) - s.x(j, 1), s.x(i, 2) - s.x(j, 2)), sums);
     }
   }

@@ -19,18 +19,11 @@ struct StepSums {
   eepa::StoredEnergy elastic;    ///< of the ledger
   eepa::Dissipation dissipated;
 
-  KOKKOS_INLINE_FUNCTION void store(const eepa::StoredEnergy &more, double share)
-  {
-    elastic.normal += share * more.normal;
-    elastic.tangential += share * more.tangential;
-    elastic.rolling += share * more.rolling;
-    elastic.twisting += share * more.twisting;
-  }
   KOKKOS_INLINE_FUNCTION void add(const StepSums &other)
   {
     energy += other.energy;
     for (int k = 0; k < 6; k++) virial[k] += other.virial[k];
-    store(other.elastic, 1.0);
+    elastic.add(other.elastic, 1.0);
     dissipated.add(other.dissipated, 1.0);
   }
 };
@@ -48,7 +41,7 @@ struct StepTallies {
   }
 };
 
-/// The contact that is deeper than a radius, if there is one: both particles in one number, which is written at once.
+/// A contact that is deeper than a radius. Both particles are in one number of 64 bits, so that one atomic store writes them.
 struct DeepContact {
   static constexpr unsigned long long none = ~0ULL;
 
@@ -156,10 +149,8 @@ template <class DeviceType> struct ContactStep {
   }
   KOKKOS_INLINE_FUNCTION void book_at(int i, const eepa::Dissipation &lost, double share) const
   {
-    // in the order of AtomLosses::by_kind()
-    const double kinds[] = {lost.hysteresis, lost.normal_dashpot, lost.tangential_dashpot,
-                            lost.sliding,    lost.rolling,        lost.twisting};
-    for (int k = 0; k < 6; k++) add(losses_of_atoms(i, k), share * kinds[k]);
+    const eepa::Dissipation::Kinds kinds = lost.by_kind();
+    for (int k = 0; k < kinds.count; k++) add(losses_of_atoms(i, k), share * kinds.value[k]);
   }
 
   /// Tallies a contact for LAMMPS, as Pair::ev_tally_xyz().

@@ -292,7 +292,7 @@ template <class DeviceType> void PairGranEepaKokkos<DeviceType>::take_sums(const
     virial_of_atoms.template sync<LMPHostType>();
   }
   if (!keep_ledger) return;
-  ledger.store(sums.elastic, 1.0);
+  ledger.elastic.add(sums.elastic, 1.0);
   ledger.dissipated.add(sums.dissipated, 1.0);
 }
 

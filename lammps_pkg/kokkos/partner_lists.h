@@ -4,11 +4,13 @@
 
 #include "contact_partners_kokkos.h"
 
+#include <eepa/status.h>
+
 namespace LAMMPS_NS {
 
 // The loops of ContactPartnersKokkos between a neighbour list and the lists of partners.
 
-/// What is at hand of a contact of a neighbour list.
+/// The arrays that the loops below read for each pair of a neighbour list.
 template <class DeviceType> struct ListedContacts {
   typename ArrayTypes<DeviceType>::t_int_1d ilist, numneigh;
   typename ArrayTypes<DeviceType>::t_neighbors_2d neighbors;
@@ -120,7 +122,8 @@ template <class DeviceType> struct PutBeside : ListedContacts<DeviceType> {
       const tagint id = this->ids(neighbor & NEIGHMASK);
       for (bigint at = list; at < list + partners; at++) {
         if (this->lists.ids(at) != id) continue;
-        this->rows.status(slot) = 1;    // as LAMMPS's fix; the next force call writes what it is
+        this->rows.status(slot) = eepa::ContactStatus::
+            touching;    // as LAMMPS's fix; the next force call writes what it is
         for (int q = 0; q < quads; q++)
           this->rows.quads(slot * quads + q) = this->lists.quads(at * quads + q);
         break;

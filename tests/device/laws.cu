@@ -6,10 +6,7 @@
 //
 //   nvcc -std=c++17 -O2 -fmad=false -I kernel -I <Eigen> tests/device/laws.cu -o laws && ./laws
 
-#include <eepa/body.h>
-#include <eepa/dispatch.h>
-#include <eepa/dissipation.h>
-#include <eepa/status.h>
+#include <eepa/eepa.h>
 
 #include <algorithm>
 #include <cmath>

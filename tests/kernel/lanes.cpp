@@ -6,6 +6,8 @@
 #include <eepa/coefficient_rows.h>
 #include <eepa/dispatch.h>
 
+#include "../random_parameters.h"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -121,35 +123,31 @@ void expect_bits(const Vector3<Lanes> &lanes, int l, const Vec3 &one, const char
   for (int k = 0; k < 3; k++) expect_bits(lanes[k][l], one[k], what);
 }
 
-/// Parameters of a case.
+/// Parameters of a case, every one that the table has.
 Parameters draw_parameters(Generator &generator, const Case &given)
 {
   Parameters p;
-  p.k1 = generator.between(1e3, 1e4);
-  p.k2 = (given.settings.law == Law::plateau ? 2.0 : generator.between(1.0, 5.0)) * p.k1;
-  p.k_adh = generator.between(0.0, 1.0) * p.k1;
-  p.f0 = -generator.between(0.0, 5.0);
-  p.mu = generator.between(0.0, 1.0);
   p.kt_given = true;
-  p.kt = generator.between(0.0, 1.0) * p.k1;
   p.damping = given.damping;
-  p.restitution = generator.between(0.0, 1.0);
-  p.viscous_normal = generator.between(0.0, 10.0);
-  p.viscous_tangential = generator.between(0.0, 10.0);
   p.rolling = given.rolling;
   p.twisting = given.twisting;
-  p.mu_r = generator.between(0.0, 0.2);
-  p.kr = generator.between(0.0, 1e3);
-  p.rolling_viscous = generator.between(0.0, 1.0);
-  if (given.settings.law == Law::luding) p.depth = generator.between(0.01, 0.2);
   p.bound = given.bound;
+  eepa_test::Spread spread{3.0, 4.0};
+  spread.overlap = 0.03;
+  spread.high = 0.5;
+  const auto draw = [&generator] {
+    return generator.between(0.0, 1.0);
+  };
+  eepa_test::draw_numbers(draw, spread, given.settings, p);
   return p;
 }
 
 /// Parameters of one of several pairs of types. They also differ in what each pair chooses.
 Parameters draw_other_choices(Generator &generator, const Case &given)
 {
-  const auto chance = [&generator](double share) { return generator.between(0.0, 1.0) < share; };
+  const auto chance = [&generator](double share) {
+    return generator.between(0.0, 1.0) < share;
+  };
   Parameters p = draw_parameters(generator, given);
   p.damping = chance(0.5) ? Damping::restitution : Damping::viscous;
   p.bound = chance(0.5) ? FrictionBound::adhesive : FrictionBound::contact;

@@ -408,7 +408,7 @@ TEST(ChangeOfDrive, ToALoadNeedsASetUp)
   simulation.run(5);
   EXPECT_TRUE(refuses(simulation, "fix_modify w load 5 mass 1\nrun 2 pre no",
                       "fix w wall/gran/eepa: load was given by fix_modify after the last set-up.*"
-                      "leave pre no away"));
+                      "leave out pre no"));
   EXPECT_EQ(simulation.thermo("step"), 6.0);
   simulation("run 2 post no\nrun 2 pre no post no");
 }

@@ -310,7 +310,7 @@ const Mistake wall_mistakes[] = {
      "faces = 1.5 is not allowed: it must be a whole number of steps, >= 1"},
     {COEFF "wall mesh a.stl faces 2 faces 2", "keyword faces is given twice"},
     {COEFF "wall zplane 0 NULL faces 5",
-     "faces is not allowed with wall zplane: only a mesh has faces to tell of"},
+     "faces is not allowed with wall zplane: only a mesh has faces"},
     {COEFF "wall zplane 0 NULL about 1 2", "missing value: about x y z"},
     {COEFF "wall region r shear x 1",
      "shear is not allowed with wall region: it needs planes or a cylinder; use velocity or "
