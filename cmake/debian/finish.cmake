@@ -57,9 +57,10 @@ foreach(root IN LISTS roots)
 
   # The Python that has what apt installs is the system's, which need not be the first one on PATH.
   file(GLOB_RECURSE scripts "${prefix}/${CPACK_EEPA_DATADIR}/eepa/*.py")
-  foreach(script IN LISTS scripts)
-    execute_process(COMMAND sed -i "1s|^#!/usr/bin/env python3\$|#!/usr/bin/python3|" "${script}")
-  endforeach()
+  if(scripts)
+    execute_process(COMMAND sed -i "1s|^#!/usr/bin/env python3\$|#!/usr/bin/python3|" ${scripts}
+      COMMAND_ERROR_IS_FATAL ANY)
+  endif()
 
   # Debian has the text of the licence once.
   if(EXISTS "${doc}/LICENSE")
