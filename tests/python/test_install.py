@@ -232,7 +232,7 @@ class Install(unittest.TestCase):
 
     def test_the_page_of_coarsen_has_its_commands(self):
         _, out = call(self.prefix / "bin" / "coarsen", "--help")
-        commands = re.findall(r"^    (\w+) ", out, re.MULTILINE)
+        commands = re.findall(r"^    (\w+)(?: |$)", out, re.MULTILINE)
         self.assertIn("plan", commands)
         page = (self.prefix / "share" / "man" / "man1" / "coarsen.1").read_text()
         self.assertEqual(re.findall(r"^\.TP\n\.B (\w+)$", page.split(".SH EXIT")[0], re.MULTILINE), commands)
