@@ -73,15 +73,15 @@ particles as with fine ones.
 
 lmp-eepa is LAMMPS with these styles. coarsen says how coarse the particles of
 a simulation may be; the package eepa-coarsen has what it needs.")
-# Libraries by dpkg-shlibdeps. The scripts of examples write meshes with NumPy and draw with Matplotlib.
+# Libraries by dpkg-shlibdeps. The scripts of examples write meshes with NumPy.
 set(CPACK_DEBIAN_EEPA_PACKAGE_SHLIBDEPS ON)
 if(TARGET LAMMPS::lammps)
   get_target_property(_eepa_library LAMMPS::lammps IMPORTED_LOCATION)
   get_filename_component(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${_eepa_library}" DIRECTORY)
 endif()
 set(CPACK_DEBIAN_EEPA_PACKAGE_DEPENDS "openmpi-bin, python3, python3-numpy")
-set(CPACK_DEBIAN_EEPA_PACKAGE_RECOMMENDS "python3-matplotlib")
-set(CPACK_DEBIAN_EEPA_PACKAGE_SUGGESTS "eepa-coarsen, libeigen3-dev, python3-meshio")
+# Matplotlib is not recommended, for apt would fetch five times as much by default.
+set(CPACK_DEBIAN_EEPA_PACKAGE_SUGGESTS "eepa-coarsen, libeigen3-dev, python3-matplotlib, python3-meshio")
 set(CPACK_DEBIAN_EEPA_PACKAGE_CONTROL_EXTRA
   "${PROJECT_SOURCE_DIR}/cmake/debian/postinst" "${PROJECT_SOURCE_DIR}/cmake/debian/prerm")
 set(CPACK_DEBIAN_EEPA_PACKAGE_CONTROL_STRICT_PERMISSION ON)

@@ -293,6 +293,7 @@ class DebianPackages(unittest.TestCase):
         needed = self.needed("eepa")
         self.assertLessEqual({"openmpi-bin", "python3", "python3-numpy", "libc6", "libstdc++6"}, needed)
         self.assertEqual([name for name in needed if name.startswith("python3-")], ["python3-numpy"])
+        self.assertNotIn("Recommends", self.fields["eepa"])    # apt installs these, too
 
     def test_eepa_coarsen_brings_what_coarsen_imports(self):
         modules = set()
