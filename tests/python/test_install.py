@@ -263,8 +263,8 @@ class Install(unittest.TestCase):
         self.assertNotIn(str(ROOT), (self.work / "b" / "CMakeCache.txt").read_text())
 
 
-@unittest.skipUnless((BUILD / "CPackConfig.cmake").is_file() and shutil.which("dpkg-shlibdeps"),
-                     "no build folder with CPackConfig.cmake, or no dpkg-shlibdeps")
+@unittest.skipUnless((BUILD / "CPackConfig.cmake").is_file() and shutil.which("dpkg-shlibdeps") and shutil.which("file"),
+                     "no build folder with CPackConfig.cmake, or no dpkg-shlibdeps or file")
 class DebianPackages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
