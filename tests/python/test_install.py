@@ -263,7 +263,7 @@ class Install(unittest.TestCase):
         self.assertNotIn(str(ROOT), (self.work / "b" / "CMakeCache.txt").read_text())
 
 
-@unittest.skipUnless((BUILD / "CPackConfig.cmake").is_file() and shutil.which("dpkg-shlibdeps") and shutil.which("file"),
+@unittest.skipUnless((BUILD / "CPackConfig.cmake").is_file() and all(map(shutil.which, ("dpkg-shlibdeps", "file"))),
                      "no build folder with CPackConfig.cmake, or no dpkg-shlibdeps or file")
 class DebianPackages(unittest.TestCase):
     @classmethod
