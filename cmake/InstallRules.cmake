@@ -6,9 +6,8 @@
 #              LAMMPS itself looks where LAMMPS_PLUGIN_PATH points
 #   coarsen    bin/coarsen; below share/eepa what it needs, in the folders that it has in the source
 #   examples   below share/eepa/examples
-#   doc        share/doc/eepa
+#   doc        share/doc/eepa: pages; html/, the site, where docs/build.sh has made it
 #   kernel     the kernel's headers, and what find_package(eepa) reads; it gives eepa::kernel
-
 #
 # The target eepa_installed builds what is installed, and no tests.
 
@@ -59,6 +58,7 @@ endif()
 if(TARGET lmp AND NOT LAMMPS_BUILD_DIR)
   add_dependencies(eepa_installed lmp)
   install(TARGETS lmp RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT lammps)
+  install(FILES docs/man/lmp-eepa.1 DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT lammps)
 
   get_target_property(_eepa_library LAMMPS::lammps IMPORTED_LOCATION)
   get_filename_component(_eepa_library "${_eepa_library}" REALPATH)
@@ -85,15 +85,43 @@ install(FILES VERSION DESTINATION "${_eepa_data}" COMPONENT coarsen)
 install(FILES scripts/mpi.env DESTINATION "${_eepa_data}/scripts" COMPONENT coarsen)
 install(PROGRAMS scripts/wear_to_vtk.py DESTINATION "${_eepa_data}/scripts" COMPONENT coarsen)
 
-install(DIRECTORY examples DESTINATION "${_eepa_data}" COMPONENT examples PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY examples DESTINATION "${_eepa_data}" COMPONENT examples USE_SOURCE_PERMISSIONS
+  PATTERN "__pycache__" EXCLUDE)
 
-install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION "${_eepa_doc}" COMPONENT doc)
+# Pages have the folders that they have in the source, and links to examples lead to where these are installed, so that
+# the links between pages hold. Links from the pages of examples lead back.
+install(FILES README.md CHANGELOG.md ARCHITECTURE.md CONTRIBUTING.md CITATION.cff LICENSE
+  DESTINATION "${_eepa_doc}" COMPONENT doc)
+file(GLOB_RECURSE _eepa_pages CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}"
+  docs/*.md docs/*.rst tests/*.md benchmarks/*.md benchmarks/*.png benchmarks/*.txt
+  lammps_pkg/doc/*.rst lammps_pkg/doc/*.png lammps_pkg/doc/*.svg)
+list(FILTER _eepa_pages EXCLUDE REGEX "/CMakeLists\\.txt$")
+foreach(_eepa_page IN LISTS _eepa_pages)
+  get_filename_component(_eepa_folder "${_eepa_page}" DIRECTORY)
+  install(FILES "${_eepa_page}" DESTINATION "${_eepa_doc}/${_eepa_folder}" COMPONENT doc)
+endforeach()
+# _eepa_link(LINK FOLDER): in an installation LINK leads to FOLDER, both as seen from its prefix.
+function(_eepa_link link folder)
+  get_filename_component(parent "${link}" DIRECTORY)
+  get_filename_component(name "${link}" NAME)
+  file(RELATIVE_PATH relative "/${parent}" "/${folder}")
+  set(made "${PROJECT_BINARY_DIR}/install/links/${link}")
+  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/install/links/${parent}")
+  file(CREATE_LINK "${relative}" "${made}" SYMBOLIC)
+  install(FILES "${made}" DESTINATION "${parent}" COMPONENT doc)
+endfunction()
+foreach(_eepa_name IN ITEMS examples coarsen)
+  _eepa_link("${_eepa_doc}/${_eepa_name}" "${_eepa_data}/${_eepa_name}")
+endforeach()
+foreach(_eepa_name IN ITEMS docs lammps_pkg)
+  _eepa_link("${_eepa_data}/${_eepa_name}" "${_eepa_doc}/${_eepa_name}")
+endforeach()
 # What Debian expects beside documentation.
-install(FILES cmake/debian_copyright DESTINATION "${_eepa_doc}" RENAME copyright COMPONENT doc)
-install(DIRECTORY docs DESTINATION "${_eepa_doc}" COMPONENT doc
-  FILES_MATCHING PATTERN "*.md" PATTERN "*.rst" PATTERN "_*" EXCLUDE)
-install(DIRECTORY lammps_pkg/doc/ DESTINATION "${_eepa_doc}" COMPONENT doc
-  FILES_MATCHING PATTERN "*.rst" PATTERN "*.png" PATTERN "*.svg")
+install(FILES cmake/debian/copyright DESTINATION "${_eepa_doc}" COMPONENT doc)
+# The site, where docs/build.sh has made it in this build folder.
+install(DIRECTORY "${PROJECT_BINARY_DIR}/site/" DESTINATION "${_eepa_doc}/html" COMPONENT doc OPTIONAL
+  PATTERN ".buildinfo" EXCLUDE)
+install(FILES docs/man/coarsen.1 DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT coarsen)
 
 set_target_properties(eepa_kernel PROPERTIES EXPORT_NAME kernel)
 set(_eepa_config "${CMAKE_INSTALL_DATADIR}/cmake/eepa")

@@ -26,7 +26,7 @@ packages=(cmake ninja-build g++ libopenmpi-dev openmpi-bin libeigen3-dev libgtes
     python3-matplotlib python3-meshio python3-pandas python3-statsmodels python3-yaml python3-jinja2
     python3-plotly snakemake
     python3-sphinx furo python3-myst-parser libjs-katex duktape
-    dpkg-dev xz-utils
+    dpkg-dev file xz-utils
     ca-certificates)
 
 installed() {

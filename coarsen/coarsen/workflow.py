@@ -11,6 +11,9 @@ from pathlib import Path
 from typing import Dict, List, Sequence, Union
 
 SNAKEFILE = Path(__file__).resolve().parent / "Snakefile"
+#: An installation has the folders of the source in share/eepa, and programs in bin.
+ROOT = Path(__file__).resolve().parents[2]
+INSTALLED = not (ROOT / "CMakeLists.txt").is_file()
 
 
 class NotInstalled(RuntimeError):
@@ -23,17 +26,24 @@ def find_lmp(given: Union[None, str, Path]) -> Path:
 
     :raise NotInstalled: with every place where it was sought
     """
-    root = Path(__file__).resolve().parents[2]
-    # An installation has the folders of the source in share/eepa, and programs in bin.
-    own = root / "build" / "lmp" if (root / "CMakeLists.txt").is_file() else root.parents[1] / "bin" / "lmp-eepa"
     build = os.environ.get("BUILD_DIR")
-    places = [str(given)] if given else [str(Path(build) / "lmp" if build else own), "lmp-eepa", "lmp"]
+    places = [Path(build) / "lmp"] if build else []
+    if INSTALLED:
+        places.append(ROOT.parents[1] / "bin" / "lmp-eepa")
+    elif not build:
+        places.append(ROOT / "build" / "lmp")
+    places = [str(given)] if given else [*map(str, places), "lmp-eepa", "lmp"]
     for place in places:
         found = shutil.which(place)
         if found:
             return Path(found).resolve()
-    raise NotInstalled(f"no LAMMPS at {' or '.join(map(str, places))}: build this project, or name one "
+    raise NotInstalled(f"no LAMMPS at {' or '.join(places)}: build this project, or name one "
                        "with --lmp")
+
+
+def results_folder() -> Path:
+    """Where examples put their results: the build folder, or for those of an installation the present folder."""
+    return Path(os.environ.get("BUILD_DIR") or (Path() if INSTALLED else ROOT / "build"))
 
 
 def run_study(study: Path, infiles: Path, out: Path, lmp: Path, cores: int, ranks: int = 1,

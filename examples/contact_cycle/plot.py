@@ -22,6 +22,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "coarsen"))
+
+from coarsen.workflow import find_lmp, results_folder  # noqa: E402
+
 LAWS = ("linear", "plateau")
 # The values of in.contact_cycle.
 K1, K2, K_ADH, F0 = 5.0e3, 1.0e4, 5.0e3, -2.0e-2
@@ -134,11 +138,10 @@ def label_branches(axis, law: str) -> None:
 
 
 def main(words: Optional[Sequence[str]] = None) -> int:
-    build = Path(os.environ.get("BUILD_DIR") or HERE.parent.parent / "build")
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--lmp", type=Path, default=build / "lmp",
-                        help="LAMMPS with this package (default: %(default)s)")
-    parser.add_argument("--out", type=Path, default=build / "contact_cycle",
+    parser.add_argument("--lmp", type=Path, default=None,
+                        help="LAMMPS with this package (default: that of the build folder or of the installation)")
+    parser.add_argument("--out", type=Path, default=results_folder() / "contact_cycle",
                         help="folder of curves, logs and picture (default: %(default)s)")
     arguments = parser.parse_args(words)
     out = arguments.out.resolve()
@@ -148,7 +151,7 @@ def main(words: Optional[Sequence[str]] = None) -> int:
     worst = 0.0
     for axis, law in zip(axes, LAWS):
         try:
-            run(arguments.lmp.resolve(), law, out)
+            run(find_lmp(arguments.lmp), law, out)
         except (OSError, RuntimeError) as error:
             print(f"plot.py: {error}", file=sys.stderr)
             return 1

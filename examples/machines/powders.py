@@ -8,7 +8,6 @@ finer and a coarser diameter; the real powders are finer still. Writes powders.c
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from pathlib import Path
 from typing import Dict, List, Sequence
@@ -111,8 +110,7 @@ def compare(case: str, runs: pd.DataFrame, quantities: Sequence[str], powder: Po
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    build = Path(os.environ.get("BUILD_DIR") or EXAMPLES.parent / "build")
-    parser.add_argument("--out", type=Path, default=build / "powders", help="folder of the runs")
+    parser.add_argument("--out", type=Path, default=workflow.results_folder() / "powders", help="folder of the runs")
     parser.add_argument("--lmp", default=None)
     parser.add_argument("--cores", type=int, default=workflow.cores())
     parser.add_argument("--predict", action="store_true", help="only the predictions, without a run")

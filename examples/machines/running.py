@@ -18,7 +18,7 @@ from typing import Callable, Dict, List, Optional, Sequence
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "coarsen"))
 
-from coarsen.workflow import cores, mpi_settings  # noqa: E402
+from coarsen.workflow import NotInstalled, cores, find_lmp, mpi_settings, results_folder  # noqa: E402
 
 _MARKER = "done.json"
 _LAST_LINES = 12
@@ -127,10 +127,6 @@ def _infiles(run: Run) -> List[Path]:
     return sorted({*run.infile.parent.glob("in.*"), *Path(__file__).resolve().parent.glob("in.*")})
 
 
-def build_folder() -> Path:
-    return Path(os.environ.get("BUILD_DIR") or ROOT / "build")
-
-
 def parser(description: str, name: str) -> argparse.ArgumentParser:
     """The options that all examples have.
 
@@ -140,11 +136,11 @@ def parser(description: str, name: str) -> argparse.ArgumentParser:
                                    formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     made.add_argument("--full", action="store_true", help="the full size instead of the quick one")
     made.add_argument("--seeds", type=int, default=None, metavar="N", help="fillings of each case")
-    made.add_argument("--lmp", type=Path, default=build_folder() / "lmp",
-                      help="LAMMPS with this package")
+    made.add_argument("--lmp", type=Path, default=None,
+                      help="LAMMPS with this package; None is that of the build folder or of the installation")
     made.add_argument("--ranks", type=int, default=1, help="MPI ranks of each run")
     made.add_argument("--jobs", type=int, default=None, help="runs at once (default: one a core)")
-    made.add_argument("--out", type=Path, default=build_folder() / name,
+    made.add_argument("--out", type=Path, default=results_folder() / name,
                       help="folder of runs, table and pictures")
     return made
 
@@ -153,13 +149,15 @@ def launcher(arguments: argparse.Namespace) -> Launcher:
     """Of the options of parser(); fills in --jobs."""
     if arguments.ranks < 1:
         raise RunFailed(f"--ranks is {arguments.ranks}, allowed is 1 or more")
-    if not Path(arguments.lmp).is_file():
-        raise RunFailed(f"there is no {arguments.lmp}: build it first, or name another with --lmp")
+    try:
+        lmp = find_lmp(arguments.lmp)
+    except NotInstalled as missing:
+        raise RunFailed(str(missing)) from None
     if arguments.jobs is None:
         arguments.jobs = max(1, cores() // arguments.ranks)
     out = Path(arguments.out).resolve()
     out.mkdir(parents=True, exist_ok=True)
-    return Launcher(Path(arguments.lmp).resolve(), out, arguments.ranks)
+    return Launcher(lmp, out, arguments.ranks)
 
 
 def exit_status(program: str, work: Callable[[], Optional[object]]) -> int:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -20,8 +19,6 @@ try:
 except ImportError as missing:
     sys.exit(f"{sys.executable} has no {missing.name}; on Debian: apt-get install python3-{missing.name} and "
              f"/usr/bin/python3 {sys.argv[0]}")
-
-BUILD = Path(os.environ.get("BUILD_DIR") or HERE.parents[1] / "build")
 
 
 def parse_arguments(words: Optional[Sequence[str]] = None) -> argparse.Namespace:
@@ -50,7 +47,7 @@ def run(arguments: argparse.Namespace) -> None:
         raise FileNotFoundError(f"there is no study {name}: allowed are a file and "
                                 + ", ".join(sorted(one.stem for one in HERE.glob("*.yaml"))))
     more = "".join(f"_{'_'.join(words)}" for words in arguments.var)  # so that runs are not overwritten
-    out = (arguments.out or BUILD / f"{path.stem}{more}").resolve()
+    out = (arguments.out or workflow.results_folder() / f"{path.stem}{more}").resolve()
     path = _with_variables(path, arguments.var, out)
     table = study.read_study(path)
     print("\n".join(f"{group}: {len(rows)} runs" for group, rows in table.groupby("group", sort=False)), flush=True)

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""cmake --install into a prefix that is then moved: what is installed runs from there. And the version, which
-stands in one place, and CITATION.cff."""
+"""cmake --install into a prefix that is then moved: what is installed runs from there. The Debian packages. And the
+version, which stands in one place, and CITATION.cff."""
+import ast
 import os
 import re
+import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -56,12 +59,30 @@ def clean_environment(**more):
 def call(*words, cwd=None, **environment):
     """Status and output."""
     done = subprocess.run([str(word) for word in words], text=True, cwd=cwd, env=clean_environment(**environment),
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=1000)
     return done.returncode, done.stdout
 
 
 def cmake():
     return cached("CMAKE_COMMAND") or "cmake"
+
+
+def links(page):
+    """To files, in a page of Markdown or reStructuredText."""
+    text = page.read_text(encoding="utf-8")
+    if page.suffix == ".md":
+        found = re.findall(r"\]\(([^)\s]+)\)", text)
+    else:
+        found = re.findall(r"(?:image|figure|include)::[ ]+(\S+)", text)
+    return [link.split("#")[0] for link in found if not re.match(r"[a-z]+:|#|/", link)]
+
+
+def broken_links(share):
+    """Of all pages below share/, as `page: link`, and how many links there are."""
+    pages = [path for name in ("doc/eepa", "eepa") for path in sorted((share / name).rglob("*"))
+             if path.suffix in (".md", ".rst")]
+    found = [(page, link) for page in pages for link in links(page)]
+    return [f"{page}: {link}" for page, link in found if not (page.parent / link).exists()], len(found)
 
 
 @unittest.skipUnless((BUILD / "CMakeCache.txt").is_file(), "started by hand: EEPA_BUILD_DIR names the build folder")
@@ -182,15 +203,44 @@ class Install(unittest.TestCase):
         self.assertEqual(status, 0, out)
         self.assertTrue((self.work / "cycle_linear.csv").is_file())
 
+    def test_scripts_of_examples_take_its_lmp_and_write_into_the_present_folder(self):
+        self.needs_own_lammps()
+        self.assertTrue(os.access(self.prefix / "share/eepa/examples/silo/run.py", os.X_OK))
+        status, out = call(sys.executable, "-B", "-c",
+                           "from machines import running\n"
+                           "print(running.launcher(running.parser('', 'silo').parse_args([])))",
+                           cwd=self.work, PYTHONPATH=self.prefix / "share" / "eepa" / "examples")
+        self.assertEqual(status, 0, out)
+        self.assertIn(repr(self.lmp), out)
+        self.assertIn(repr(self.work.resolve() / "silo"), out)
+
     def test_documentation_is_complete(self):
         folder = self.prefix / "share" / "doc" / "eepa"
-        pages = sorted(page.name for page in (ROOT / "lammps_pkg" / "doc").glob("*.rst"))
-        self.assertEqual(sorted(page.name for page in folder.glob("*.rst")), pages)
-        for page in folder.glob("*.rst"):
-            for figure in re.findall(r"(?:image|figure):: (\S+)", page.read_text()):
-                self.assertTrue((folder / figure).is_file(), f"{page.name}: {figure}")
+        for source in (ROOT / "lammps_pkg" / "doc").glob("*.rst"):
+            self.assertTrue((folder / "lammps_pkg" / "doc" / source.name).is_file(), source.name)
         for name in ("LICENSE", "CHANGELOG.md", "CITATION.cff", "README.md", "docs/installing.md"):
             self.assertTrue((folder / name).is_file(), name)
+
+    def test_links_between_pages_lead_to_what_is_installed(self):
+        broken, count = broken_links(self.prefix / "share")
+        self.assertEqual(broken, [])
+        self.assertGreater(count, 100)
+
+    def test_programs_have_pages_of_the_manual(self):
+        pages = {page.stem for page in (self.prefix / "share" / "man" / "man1").iterdir()}
+        self.assertEqual(pages, {program.name for program in (self.prefix / "bin").iterdir()})
+
+    def test_the_page_of_coarsen_has_its_commands(self):
+        _, out = call(self.prefix / "bin" / "coarsen", "--help")
+        commands = re.findall(r"^    (\w+)(?: |$)", out, re.MULTILINE)
+        self.assertIn("plan", commands)
+        page = (self.prefix / "share" / "man" / "man1" / "coarsen.1").read_text()
+        self.assertEqual(re.findall(r"^\.TP\n\.B (\w+)$", page.split(".SH EXIT")[0], re.MULTILINE), commands)
+
+    def test_coarsen_without_libraries_says_what_to_install(self):
+        status, out = call(self.prefix / "bin" / "coarsen", "plan", cwd=self.work, PYTHON="/bin/false")
+        self.assertEqual(status, 1)
+        self.assertRegex(out, "on Debian install eepa-coarsen, .* apt-get install python3-pandas")
 
     def test_a_component_is_installed_alone(self):
         status, out = call(cmake(), "--install", BUILD, "--prefix", self.work / "alone", "--component", "plugin")
@@ -211,6 +261,93 @@ class Install(unittest.TestCase):
         self.assertEqual((self.work / "b" / "version").read_text(), VERSION)
         # It is found in the prefix and not in this source tree.
         self.assertNotIn(str(ROOT), (self.work / "b" / "CMakeCache.txt").read_text())
+
+
+@unittest.skipUnless((BUILD / "CPackConfig.cmake").is_file() and all(map(shutil.which, ("dpkg-shlibdeps", "file"))),
+                     "no build folder with CPackConfig.cmake, or no dpkg-shlibdeps or file")
+class DebianPackages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if cached("LAMMPS_BUILD_DIR") or os.environ.get("EEPA_SANITIZE"):
+            raise unittest.SkipTest("only for the LAMMPS that this project builds, without sanitizers")
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        folder = Path(folder.name).resolve()
+        status, out = call(Path(cmake()).with_name("cpack"), "--config", BUILD / "CPackConfig.cmake", "-B", folder,
+                           "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip", "-D", "CPACK_PACKAGE_CONTACT=Me <me@here.org>")
+        if status != 0:
+            raise AssertionError(out)
+        cls.fields = {}
+        for package in folder.glob("*.deb"):
+            _, out = call("dpkg-deb", "--field", package)
+            fields = dict(line.split(": ", 1) for line in out.splitlines() if re.match(r"[\w-]+: ", line))
+            cls.fields[fields["Package"]] = fields
+            call("dpkg-deb", "--extract", package, folder / "root")
+        cls.share = folder / "root" / "usr" / "share"
+
+    def needed(self, package):
+        return {word.split()[0] for word in self.fields[package]["Depends"].split(",")}
+
+    def test_eepa_comes_without_what_only_coarsen_needs(self):
+        self.assertEqual(set(self.fields), {"eepa", "eepa-coarsen"})
+        needed = self.needed("eepa")
+        self.assertLessEqual({"openmpi-bin", "python3", "python3-numpy", "libc6", "libstdc++6"}, needed)
+        self.assertEqual([name for name in needed if name.startswith("python3-")], ["python3-numpy"])
+        self.assertNotIn("Recommends", self.fields["eepa"])    # apt installs these, too
+
+    def test_eepa_coarsen_brings_what_coarsen_imports(self):
+        modules = set()
+        for source in [*(ROOT / "coarsen" / "coarsen").glob("*.py"), ROOT / "coarsen" / "coarsen" / "Snakefile"]:
+            for line in source.read_text().splitlines():
+                if re.match(r" *(import|from) \w+(\.\w+)*( |$)", line):
+                    found = ast.parse(line.strip()).body[0]
+                    names = [name.name for name in found.names] if isinstance(found, ast.Import) else [found.module]
+                    modules |= {name.split(".")[0] for name in names}
+        modules -= {*sys.stdlib_module_names, "coarsen"}
+        self.assertLessEqual({"pandas", "statsmodels"}, modules)
+        needed = self.needed("eepa-coarsen")
+        self.assertLessEqual({f"python3-{module}" for module in modules}, needed)
+        self.assertLessEqual({"snakemake", "eepa"}, needed)
+        self.assertIn(f"eepa (= {self.fields['eepa']['Version']})", self.fields["eepa-coarsen"]["Depends"])
+
+    def test_the_version_names_the_release_of_debian(self):
+        release = Path("/etc/os-release").read_text()
+        if not re.search("^ID=debian$", release, re.MULTILINE):
+            self.skipTest("this is no Debian")
+        name = re.search(r'^VERSION_(?:ID|CODENAME)="?([^"\n]+)', release, re.MULTILINE).group(1)
+        self.assertEqual(self.fields["eepa"]["Version"], f"{VERSION}-1~deb{name}")
+
+    def test_changelogs_can_be_read_by_debian(self):
+        for package in self.fields:
+            status, out = call("dpkg-parsechangelog", "-l", self.share / "doc" / package / "changelog.Debian.gz")
+            self.assertEqual(status, 0, out)
+            self.assertNotIn("warning", out)
+            self.assertIn(f"\nVersion: {self.fields[package]['Version']}\n", out)
+            self.assertIn("\nMaintainer: Me <me@here.org>\n", out)
+
+    def test_links_between_pages_lead_to_what_is_installed(self):
+        broken, count = broken_links(self.share)
+        # The licence is a file of every Debian.
+        self.assertEqual([link for link in broken if not link.endswith("/doc/eepa/README.md: LICENSE")], [])
+        self.assertGreater(count, 100)
+        self.assertEqual(os.readlink(self.share / "doc" / "eepa" / "LICENSE"), "../../common-licenses/GPL-2")
+
+    def test_scripts_start_the_python_of_the_system(self):
+        scripts = [path for path in self.share.rglob("*.py") if os.access(path, os.X_OK)]
+        self.assertGreater(len(scripts), 10)
+        for script in scripts:
+            self.assertEqual(script.read_text().splitlines()[0], "#!/usr/bin/python3", script)
+
+    def test_pages_of_the_manual_are_compressed(self):
+        self.assertEqual(sorted(page.name for page in (self.share / "man" / "man1").iterdir()),
+                         ["coarsen.1.gz", "lmp-eepa.1.gz"])
+
+    def test_libraries_are_stripped(self):
+        libraries = list(self.share.parent.glob("lib/**/*.so*"))
+        self.assertEqual({library.name for library in libraries}, {"liblammps.so.0", "eepaplugin.so"})
+        for library in libraries:
+            _, out = call("readelf", "-S", library)
+            self.assertNotIn(".symtab", out)
 
 
 @unittest.skipUnless((BUILD / "CMakeCache.txt").is_file(), "started by hand: EEPA_BUILD_DIR names the build folder")
