@@ -187,7 +187,7 @@ intree() {
     cmake -S "$root" -B "$work/intree/build" -D LAMMPS_SOURCE_DIR="$tree" -D EEPA_STYLES=in_lammps \
         -D EEPA_CACHE_DIR="$work/intree/cache" >"$work/intree/configure.log" ||
         die "see $work/intree/configure.log"
-    cmake --build "$work/intree/build" >"$work/intree/build.log" || die "see $work/intree/build.log"
+    cmake --build "$work/intree/build" --target test_lammps >"$work/intree/build.log" || die "see $work/intree/build.log"
     status=0
     ctest --test-dir "$work/intree/build" --output-on-failure \
         -R '^(lammps|python.(contact_cycle|granular_sub_models|impacts|steady_contacts|wear))' >"$work/intree/test.log" 2>&1 || status=1
