@@ -2,6 +2,7 @@
 """Runs of the sub-models of pair_style granular and of pair_style gran/eepa, whose forces are compared."""
 
 import os
+import re
 import subprocess
 import tempfile
 from pathlib import Path
@@ -33,6 +34,5 @@ def forces(script, ranks=1, files={}):
     done = run(script, ranks, files)
     if done.returncode:
         raise AssertionError(done.stdout[-1500:] + done.stderr)
-    rows = [line.split() for line in done.stdout.splitlines()]
-    rows = [row for row in rows if len(row) == 4 and row[0].isdigit()]
-    return np.array(rows, float)
+    rows = re.findall(r"^ *\d+(?: +-?[\d.]\S*| +-?nan| +-?inf){3} *$", done.stdout, re.M)
+    return np.array([row.split() for row in rows], float)
