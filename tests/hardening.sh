@@ -11,7 +11,8 @@
 #   hardening.sh mutation [OPTION...]  small faults in kernel and commands, see tests/mutation/mutate.py
 #   hardening.sh intree [LAMMPS]  install into a copy of this LAMMPS source, build it, run the tests against it, remove
 #
-# EEPA_LMP: the lmp to use (build/lmp). EEPA_HARDENING_DIR: working folder (build-hardening).
+# EEPA_LMP: the lmp to use (build/lmp). EEPA_HARDENING_DIR: working folder (build-hardening). CMake's own variables are
+# obeyed, such as CMAKE_CXX_COMPILER_LAUNCHER=ccache, CMAKE_GENERATOR=Ninja and CMAKE_BUILD_PARALLEL_LEVEL=2.
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -212,7 +213,7 @@ mutation)
     mutation "$@"
     ;;
 *)
-    sed -n '3,14s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,16s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac
