@@ -49,7 +49,8 @@ set(EEPA_LAMMPS_RELEASE "4Feb2025" CACHE STRING "LAMMPS release to obtain")
 set_property(CACHE EEPA_LAMMPS_RELEASE PROPERTY STRINGS 4Feb2025 4Jul2026)
 set(EEPA_LAMMPS_ARGS "" CACHE STRING "More -D arguments for LAMMPS's configuration")
 if(EEPA_STYLES STREQUAL "in_lammps")
-  list(APPEND EEPA_LAMMPS_ARGS -D PKG_EEPA=on)
+  # GRANSURF, which came after 4 Feb 2025: surfaces that touch by the sub-models
+  list(APPEND EEPA_LAMMPS_ARGS -D PKG_EEPA=on -D PKG_GRANSURF=on)
 endif()
 
 # Locks `path` against other configurations until the calling function ends, in whatever way it ends.

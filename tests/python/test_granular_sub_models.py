@@ -3,17 +3,11 @@
 wall/gran/eepa, with prescribed motion, so that all see the same positions and velocities. Needs a LAMMPS with
 package EEPA in it."""
 
-import os
-import subprocess
 import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
-
-LMP = os.environ.get("EEPA_LMP", "")
-MPIEXEC = os.environ.get("EEPA_MPIEXEC", "mpirun")
-IN_LAMMPS = os.environ.get("EEPA_STYLES") == "in_lammps"
+from sub_model_runs import IN_LAMMPS, LAWS, NO_FRICTION, forces, run
 
 # The overlap goes up and down through all branches, opens and closes. The pair drifts through the box and so
 # from one process to the other.
@@ -59,29 +53,6 @@ fix m1 one move variable v_drift NULL NULL v_vdrift NULL NULL
 fix m2 two move variable v_x2 v_y2 NULL v_vx2 v_vy2 NULL
 """
 MOVE_AT_WALL = "fix m all move variable NULL NULL v_gap NULL NULL v_vgap\n"
-
-LAWS = {    # sub-model, its numbers, law and numbers of gran/eepa
-    "eepa": ("eepa 1e4 3e4 1e4 -5", "linear", "1e4 3e4 1e4 -5 0"),
-    "luding": ("luding 1e4 3e4 1e4 -5 0.03", "luding", "1e4 3e4 1e4 -5 0 depth 0.03"),
-}
-NO_FRICTION = "tangential linear_nohistory 0 0"
-
-
-def run(script, ranks=1):
-    with tempfile.TemporaryDirectory() as folder:
-        command = [MPIEXEC, "-np", str(ranks)] if ranks > 1 else []
-        Path(folder, "in.test").write_text(script)
-        return subprocess.run([*command, LMP, "-in", "in.test", "-log", "none"], cwd=folder, text=True,
-                              capture_output=True, timeout=300)
-
-
-def forces(script, ranks=1):
-    done = run(script, ranks)
-    if done.returncode:
-        raise AssertionError(done.stdout[-1500:] + done.stderr)
-    rows = [line.split() for line in done.stdout.splitlines()]
-    rows = [row for row in rows if len(row) == 4 and row[0].isdigit()]
-    return np.array(rows, float)
 
 
 def pair_script(style, d=(1.0, 1.0), types=(1, 1), newton="on", slide=0, swap=False, steps=900, after=""):
