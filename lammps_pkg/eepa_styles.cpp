@@ -51,6 +51,14 @@ const std::vector<EepaStyle> &LAMMPS_NS::eepa_styles()
 #endif
       {"fix", "wall/gran/eepa", "walls of pair style gran/eepa", nullptr,
        maker<Fix, FixWallGranEepa>, nullptr},
+#ifdef EEPA_KOKKOS
+      {"fix", "wall/gran/eepa/kk", "the same on the device of KOKKOS", nullptr,
+       make_wall_gran_eepa_on_device, nullptr},
+      {"fix", "wall/gran/eepa/kk/device", "the same", nullptr, make_wall_gran_eepa_on_device,
+       nullptr},
+      {"fix", "wall/gran/eepa/kk/host", "the same on the host, with KOKKOS", nullptr,
+       make_wall_gran_eepa_on_host, nullptr},
+#endif
       {"compute", "gran/eepa/contacts", "contacts by branch, coordination number", nullptr, nullptr,
        maker<Compute, ComputeGranEepaContacts>},
       {"compute", "gran/eepa/energy", "stored and dissipated energies", nullptr, nullptr,

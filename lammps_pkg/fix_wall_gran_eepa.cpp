@@ -256,6 +256,7 @@ void FixWallGranEepa::check_time_step()
 
 double FixWallGranEepa::contact_time_step()
 {
+  bring_sizes_to_host();
   double mine = std::numeric_limits<double>::infinity(), stiffest = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_member(i)) continue;

@@ -70,7 +70,7 @@ class FixWallGranEepa : public Fix {
   /// This rank's energies; all zero unless a compute gran/eepa/energy existed at the last init.
   const EnergyLedger &energy_ledger() const { return ledger; }
 
- private:
+ protected:
   /// the global vector
   enum {
     FORCE_X,    ///< force of the particles on the wall, all faces together
@@ -206,9 +206,12 @@ class FixWallGranEepa : public Fix {
   void require_walls_in_the_box() const;
   std::string style_name() const;
   void warn_of_rotation();
-  void warn_of_device();
+  virtual void warn_of_device();
   void check_time_step();
   void complain(const std::string &message);
+  // what a variant asks LAMMPS for before this class reads particles
+  virtual void bring_sizes_to_host() {}
+  virtual void bring_all_to_host() {}
   /// The largest stable time step of particles on the wall. Collective.
   double contact_time_step();
   /// The largest stable time step of the platen on its present contacts.
@@ -239,6 +242,9 @@ class FixWallGranEepa : public Fix {
   bool candidates_stay() const;
   bool lists_bound_motion() const;
   bool candidates_are_old() const;
+  bool particles_are_elsewhere() const;
+  bool atoms_may_be_far() const;
+  double margin_of_candidates();
   bool surface_stays() const;
   double travelled() const;
   void collect_candidates();
@@ -248,6 +254,7 @@ class FixWallGranEepa : public Fix {
   void prefetch(const Visit &visit) const;
 
   // force call, fix_wall_gran_eepa_force.cpp
+  virtual void add_contacts();
   void sum_forces();
   void book(int i, const eepa::Dissipation &);
   bool books_setup() const;

@@ -31,13 +31,23 @@ bool FixWallGranEepa::lists_bound_motion() const
       !neighbor->includegroup;
 }
 
-/// Whether candidates must be collected again before this force call.
-bool FixWallGranEepa::candidates_are_old() const
+/// Whether candidates must be collected again before this force call, however little atoms have moved.
+bool FixWallGranEepa::particles_are_elsewhere() const
 {
   // Particles change their local indices when a list is made, and when another fix reorders them.
   if (update->setupflag != 0 || neighbor->ago == 0 || particles_are_moved) return true;
-  if (!candidates_stay()) return true;
-  if (!(travelled() <= travel_left)) return true;
+  return !candidates_stay() || !(travelled() <= travel_left);
+}
+
+/// Whether atoms may move by more than half the skin before LAMMPS makes a new list.
+bool FixWallGranEepa::atoms_may_be_far() const
+{
+  return candidates_stay() && !lists_bound_motion();
+}
+
+bool FixWallGranEepa::candidates_are_old() const
+{
+  if (particles_are_elsewhere()) return true;
   if (places.empty()) return false;
   const double most = 0.25 * neighbor->skin * neighbor->skin;
   for (int i = 0; i < atom->nlocal; i++)
@@ -63,28 +73,34 @@ double FixWallGranEepa::travelled() const
   return shift.norm() + turn * rotation_reach;
 }
 
-/// Collects the atoms that can touch a face before the next collection, of any group, because
-/// groups may change. Where candidates do not stay, collects those that touch at present.
-void FixWallGranEepa::collect_candidates()
+/// Begins a collection at the present place of the wall.
+/// \return by how much a particle may move before the next one [length]
+double FixWallGranEepa::margin_of_candidates()
 {
-  double margin = 0.0;
+  collected_margin = 0.0;
   travel_left = 0.0;
-  places.clear();
   if (candidates_stay()) {
     // A wall that moves may do so by half the skin. Atoms may move by half the skin from their
     // positions in a new neighbour list; in an older list they may have done so already, the other
     // way. Some rounding is added.
     if (!surface_stays()) travel_left = 0.5 * neighbor->skin;
-    const bool by_lists = lists_bound_motion();
-    const double of_atoms = by_lists && neighbor->ago != 0 ? 1.0 : 0.5;
-    margin = (1.0 + 1e-6) * (travel_left + of_atoms * neighbor->skin);
-    if (!by_lists)
-      for (int i = 0; i < atom->nlocal; i++) places.emplace_back(atom->x[i]);
+    const double of_atoms = lists_bound_motion() && neighbor->ago != 0 ? 1.0 : 0.5;
+    collected_margin = (1.0 + 1e-6) * (travel_left + of_atoms * neighbor->skin);
   }
-  for (int i = 0; i < atom->nlocal; i++) require_slow(i);
-  collected_margin = margin;
   collected_at = placement;
   rotation_is_new = false;
+  return collected_margin;
+}
+
+/// Collects the atoms that can touch a face before the next collection, of any group, because
+/// groups may change. Where candidates do not stay, collects those that touch at present.
+void FixWallGranEepa::collect_candidates()
+{
+  const double margin = margin_of_candidates();
+  places.clear();
+  if (atoms_may_be_far())
+    for (int i = 0; i < atom->nlocal; i++) places.emplace_back(atom->x[i]);
+  for (int i = 0; i < atom->nlocal; i++) require_slow(i);
   candidates.clear();
   for (int i = 0; i < atom->nlocal; i++) {
     const Vec3 centre = placement.to_shape(Vec3(atom->x[i]));

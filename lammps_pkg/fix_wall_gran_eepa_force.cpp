@@ -10,6 +10,8 @@
 #include "region_shape.h"
 
 #include <eepa/status.h>
+#include <eepa_walls/matching.h>
+#include <eepa_walls/touched_wall.h>
 
 #include "atom.h"
 #include "comm.h"
@@ -55,7 +57,6 @@ void FixWallGranEepa::post_force(int vflag)
   const bool step = update->setupflag == 0;
   request = StepRequest::of_call(step, dt, keep_ledger, ledger_starts);
   request.wants_energy = true;
-  if (candidates_are_old()) collect_candidates();
   sums = {};
   output_is_summed = false;
   ledger.elastic = eepa::StoredEnergy();
@@ -65,13 +66,7 @@ void FixWallGranEepa::post_force(int vflag)
   atom_losses.clear();
   if (keep_ledger) atom_losses = ComputeGranEepaEnergyAtom::find(modify);
   if (face_loads && step) face_loads->start_step();
-  // the evaluation in lanes gives neither losses nor the status that these requests need
-  may_wait = !waiting_outcomes.empty() && step && !keep_ledger && !contact_table && !face_loads;
-  // an error may have ended the run before in the midst of a force call
-  waiting_contacts.clear();
-  waiting.clear();
-  meet_candidates();
-  evaluate_waiting();
+  add_contacts();
   after_setup = !step;
   if (step) ledger_starts = false;
   if (loaded()) {
@@ -94,6 +89,20 @@ void FixWallGranEepa::post_force(int vflag)
   }
 }
 
+/// Finds and evaluates all contacts.
+void FixWallGranEepa::add_contacts()
+{
+  if (candidates_are_old()) collect_candidates();
+  // the evaluation in lanes gives neither losses nor the status that these requests need
+  may_wait = !waiting_outcomes.empty() && request.advance && !keep_ledger && !contact_table &&
+      !face_loads;
+  // an error may have ended the run before in the midst of a force call
+  waiting_contacts.clear();
+  waiting.clear();
+  meet_candidates();
+  evaluate_waiting();
+}
+
 /* ---------------------------------------------------------------------- contacts of a particle */
 
 eepa::Body<double> FixWallGranEepa::body_of(int candidate) const
@@ -108,12 +117,6 @@ eepa::Body<double> FixWallGranEepa::body_of(int candidate) const
 bool FixWallGranEepa::books_setup() const
 {
   return keep_ledger && after_setup && request.advance;
-}
-
-/// Cosine of the angle by which the normal of a contact has turned, 1 where it was not known.
-static double alikeness(const FaceHistory &before, const SurfacePoint &now)
-{
-  return before.normal != Vec3::Zero() ? eepa::dot(before.normal, now.normal) : 1.0;
 }
 
 void FixWallGranEepa::meet(const Visit &visit)
@@ -132,7 +135,8 @@ void FixWallGranEepa::meet(const Visit &visit)
   if (found.size() == 1 && had_some) {
     // by far the most frequent case: the contact of the step before goes on
     auto &list = histories.mutable_list(i);
-    if (list.size() == 1 && list[0].face == found[0].face && alikeness(list[0], found[0]) > 0.0) {
+    if (list.size() == 1 && list[0].face == found[0].face &&
+        eepa::alikeness(list[0].normal, found[0].normal) > 0.0) {
       const eepa::WallPoint<double> wall = touched_wall(i, body, centre, found[0]);
       if (may_wait)
         wait_for_others(body, wall, {i, found[0], &list[0]});
@@ -164,36 +168,42 @@ void FixWallGranEepa::meet(const Visit &visit)
   histories.release(i);
 }
 
-/// Finds the history of each contact: of the same face, or of a face from which the particle slid.
-/// Those whose normals are nearest belong together, because contacts may share the number of a face.
+namespace {
+/// Contacts and histories of a particle, for match_contacts().
+struct ContactsOfParticle {
+  const std::vector<SurfacePoint> &points;
+  const eepa::FaceHistoryList &list;
+  const eepa::Shape &shape;
+  const Vec3 &centre;
+  std::vector<int> &history_of_found;
+  std::vector<char> &matched;
+
+  int found() const { return static_cast<int>(points.size()); }
+  int histories() const { return static_cast<int>(list.size()); }
+  bool is_taken(int k) const { return history_of_found[k] >= 0; }
+  bool is_matched(int m) const { return matched[m] != 0; }
+  double alike(int k, int m) const { return eepa::alikeness(list[m].normal, points[k].normal); }
+  bool belong(int k, int m, bool same_face) const
+  {
+    return same_face ? list[m].face == points[k].face
+                     : shape.continues(list[m].face, points[k], centre);
+  }
+  void match(int k, int m) const
+  {
+    history_of_found[k] = m;
+    matched[m] = 1;
+  }
+};
+}    // namespace
+
+/// Finds the history of each contact.
 void FixWallGranEepa::match(int i, const Vec3 &centre)
 {
   const auto &list = histories.list(i);
   history_of_found.assign(found.size(), -1);
   is_matched.assign(list.size(), 0);
-  if (found.empty() || list.empty()) return;
-  for (const bool same_face : {true, false})
-    for (;;) {
-      double closest = 0.0;
-      std::size_t contact = found.size(), history = 0;
-      for (std::size_t k = 0; k < found.size(); k++) {
-        if (history_of_found[k] >= 0) continue;
-        for (std::size_t m = 0; m < list.size(); m++) {
-          if (is_matched[m]) continue;
-          const double alike = alikeness(list[m], found[k]);
-          if (alike <= closest) continue;
-          if (same_face ? list[m].face != found[k].face
-                        : !shape->continues(list[m].face, found[k], centre))
-            continue;
-          closest = alike;
-          contact = k;
-          history = m;
-        }
-      }
-      if (contact == found.size()) break;
-      history_of_found[contact] = static_cast<int>(history);
-      is_matched[history] = 1;
-    }
+  eepa::match_contacts(
+      ContactsOfParticle{found, list, *shape, centre, history_of_found, is_matched});
 }
 
 /// The wall at a contact of this step; stops the run where it is too deep.
@@ -244,11 +254,7 @@ void FixWallGranEepa::evaluate(const eepa::Body<double> &body, const eepa::WallP
   if (keep_ledger) {
     ledger.elastic.add(outcome.energy, 1.0);
     if (request.wants_losses) book(touch.particle, outcome.lost);
-    // at the end of the step, as the force
-    eepa::WallPoint<double> now = wall;
-    const Vec3 spot = eepa::middle_of_overlap(body, wall.normal, wall.overlap);
-    now.velocity += placement.velocity_at(spot) -
-        placement.velocity_before(spot, body.v, 0.5 * request.time_step);
+    const auto now = eepa::at_end_of_step(wall, body, placement, request.time_step);
     power += eepa::power_of_wall(outcome.wrench, contact, now);
   }
   if (face_loads && request.advance) face_loads->add(touch.point.face, contact, outcome.wrench, dt);
@@ -335,31 +341,20 @@ eepa::WallPoint<double> FixWallGranEepa::wall_point(const SurfacePoint &point,
                                                     const eepa::Body<double> &body,
                                                     const Vec3 &centre) const
 {
-  eepa::WallPoint<double> wall;
-  wall.normal = placement.direction_to_space(point.normal);
-  wall.overlap = body.radius - point.distance;
   const Vec3 relative = body.v - placement.velocity_at(body.x);
-  wall.normal_rate = placement.direction_to_space(
-      shape->normal_rate(point, centre, placement.direction_to_shape(relative)));
-  const Vec3 spot = eepa::middle_of_overlap(body, wall.normal, wall.overlap);
-  // as the particle's velocity, that of half a step ago
-  wall.velocity = placement.velocity_before(spot, body.v, 0.5 * request.time_step);
-  if (placement.turns()) {
-    wall.angular_velocity = placement.angular_velocity();
-    wall.normal_rate += wall.angular_velocity.cross(wall.normal);
-  }
+  eepa::WallPoint<double> wall = eepa::touched_wall(
+      point, body, placement,
+      shape->normal_rate(point, centre, placement.direction_to_shape(relative)), surface_speed,
+      request.time_step);
   if (shape->moves()) {
     const eepa::SurfaceVelocity own = shape->velocity(
         point, centre, 0.5 * request.time_step * placement.direction_to_shape(relative));
     // of the surface, from which the middle of the overlap is not far
+    const Vec3 spot = eepa::middle_of_overlap(body, wall.normal, wall.overlap);
     const Vec3 inwards = spot - body.x + point.distance * wall.normal;
     const Vec3 own_angular = placement.direction_to_space(own.angular);
     wall.velocity += placement.direction_to_space(own.linear) + own_angular.cross(inwards);
     wall.angular_velocity += own_angular;
-  }
-  if (surface_speed != 0.0) {    // of a cylinder
-    const Vec3 around(wall.normal[1], -wall.normal[0], 0.0);
-    wall.velocity += (point.face == 0 ? -surface_speed : surface_speed) * around;
   }
   return wall;
 }

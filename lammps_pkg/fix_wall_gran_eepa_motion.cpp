@@ -60,6 +60,7 @@ void FixWallGranEepa::evaluate_motion()
   bool any = !motion_args.shear.variable.empty() || !motion_args.rotation.speed.variable.empty();
   for (const auto &component : motion_args.velocity) any |= !component.variable.empty();
   if (!any) return;
+  bring_all_to_host();
   modify->clearstep_compute();
   // evaluate all components before one is used
   WallMotion::Vector given;
@@ -76,7 +77,10 @@ double FixWallGranEepa::evaluate_load()
   const eepa::LoadArguments &load = motion_args.load;
   const bool any = !load.force.variable.empty() || !load.pressure.variable.empty() ||
       !load.area.variable.empty();
-  if (any) modify->clearstep_compute();
+  if (any) {
+    bring_all_to_host();
+    modify->clearstep_compute();
+  }
   double applied;
   if (load.by_pressure) {
     const double pressure = evaluate("load pressure", load.pressure);

@@ -37,31 +37,34 @@ struct ContactOutcome {
   Dissipation lost;       ///< if requested
 };
 
+/// The most that a caller ever requests; code for more is left out.
+enum class Wanted { forces, energies, losses };
+
 /// Evaluates a contact and keeps its new state where the request says so.
-/// \tparam only_forces  whether the caller knows that the request is for a step without energies and losses
 /// \param contact  overlap > 0
 /// \param first  whether the contact formed in this step
 /// \param[in,out] row  ContactLaw::history_size values, see history.h
-template <class ContactLaw, bool only_forces = false, class Row>
+template <class ContactLaw, Wanted most = Wanted::losses, class Row>
 EEPA_FUNCTION ContactOutcome step_contact(const Coefficients &c, const StepRequest &request,
-                                          const Contact &contact, bool first, Row row)
+                                          const Contact &contact, [[maybe_unused]] bool first,
+                                          Row row)
 {
   using Layout = typename ContactLaw::Layout;
   History history = load_history<Layout>(row);
-  const History before = history;
+  [[maybe_unused]] const History before = history;
   const Response response = ContactLaw::evaluate(c, contact, request.time_step, history);
-  if (only_forces || request.advance) store_history<Layout>(history, row);
+  if (request.advance) store_history<Layout>(history, row);
 
   ContactOutcome outcome;
   outcome.wrench = ContactLaw::wrench(response, contact);
   outcome.status = ContactStatus::of(response);
   outcome.max_overlap = history.max_overlap;
-  if constexpr (!only_forces) {
+  if constexpr (most != Wanted::forces)
     if (request.wants_energy) outcome.energy = ContactLaw::stored_energy(c, contact, history);
+  if constexpr (most == Wanted::losses)
     if (request.wants_losses)
       outcome.lost = dissipation_of_step<ContactLaw>(c, contact, response, request.time_step, first,
                                                      before, history, request.booked);
-  }
   return outcome;
 }
 

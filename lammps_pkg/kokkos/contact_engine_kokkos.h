@@ -3,6 +3,7 @@
 #define LMP_EEPA_CONTACT_ENGINE_KOKKOS_H
 
 #include "contact_step.h"
+#include "wall_step.h"
 
 #include <eepa/parameters.h>
 
@@ -19,6 +20,10 @@ template <class DeviceType> class ContactEngineKokkos {
   virtual void add_forces(const ContactStep<DeviceType> &) const = 0;
   /// The same with all that a step or a set-up may ask for.
   virtual StepSums add_forces_and_tally(const ContactStep<DeviceType> &) const = 0;
+
+  /// The same for contacts with a wall, which its surface has found.
+  virtual WallSums add_wall_forces(const WallStep<DeviceType> &) const = 0;
+  virtual WallTallies add_wall_forces_and_tally(const WallStep<DeviceType> &) const = 0;
 };
 
 template <class DeviceType>

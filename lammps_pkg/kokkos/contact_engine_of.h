@@ -4,6 +4,7 @@
 
 #include "contact_engine_kokkos.h"
 #include "contact_kernel.h"
+#include "wall_kernel.h"
 
 #include <eepa/dispatch.h>
 
@@ -24,6 +25,23 @@ class ContactEngineKokkosOf final : public ContactEngineKokkos<DeviceType> {
     StepSums sums;
     Kokkos::parallel_reduce("gran/eepa:tally", Kokkos::RangePolicy<DeviceType>(0, step.inum),
                             ContactKernel<DeviceType, ContactLaw, true>(step), sums);
+    return sums;
+  }
+
+  WallSums add_wall_forces(const WallStep<DeviceType> &step) const override
+  {
+    WallSums sums;
+    Kokkos::parallel_reduce("gran/eepa:wall",
+                            Kokkos::RangePolicy<DeviceType>(0, step.rows.candidates),
+                            WallKernel<DeviceType, ContactLaw, false>(step), sums);
+    return sums;
+  }
+  WallTallies add_wall_forces_and_tally(const WallStep<DeviceType> &step) const override
+  {
+    WallTallies sums;
+    Kokkos::parallel_reduce("gran/eepa:wall_tally",
+                            Kokkos::RangePolicy<DeviceType>(0, step.rows.candidates),
+                            WallKernel<DeviceType, ContactLaw, true>(step), sums);
     return sums;
   }
 };

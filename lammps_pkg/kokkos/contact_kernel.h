@@ -12,6 +12,7 @@ namespace LAMMPS_NS {
 /// \tparam tallies  whether the step asks for more than forces: a set-up, energies, virial or losses
 template <class DeviceType, class ContactLaw, bool tallies> class ContactKernel {
   using Vec3 = eepa::Vec3;
+  static constexpr auto wanted = tallies ? eepa::Wanted::losses : eepa::Wanted::forces;
 
  public:
   using value_type = StepSums;
@@ -103,7 +104,7 @@ template <class DeviceType, class ContactLaw, bool tallies> class ContactKernel 
       s.note_too_deep(i, j);
 
     const int last = s.rows.status(slot);
-    const eepa::ContactOutcome outcome = eepa::step_contact<ContactLaw, !tallies>(
+    const auto outcome = eepa::step_contact<ContactLaw, wanted>(
         c, s.request, contact, last == eepa::ContactStatus::none, s.rows.history(slot));
     if (outcome.status != last) s.rows.status(slot) = outcome.status;
 

@@ -67,6 +67,15 @@ template <class DeviceType> void ContactPartnersKokkos<DeviceType>::reserve(bigi
   lists.quads = quads;
 }
 
+template <class DeviceType>
+const PartnerLists<DeviceType> &ContactPartnersKokkos<DeviceType>::renew(bigint partners)
+{
+  used = 0;
+  reserve(partners);
+  used = partners;
+  return lists;
+}
+
 template <class DeviceType> double ContactPartnersKokkos<DeviceType>::memory_usage() const
 {
   return static_cast<double>(lists.first.span() * sizeof(bigint) +

@@ -47,6 +47,11 @@ template <class DeviceType> class ContactPartnersKokkos {
   void put_beside(const List &, const Rows &, const typename ArrayTypes<DeviceType>::t_tagint_1d &,
                   bool parting) const;
 
+  /// The lists, to be read.
+  const Lists &all() const { return lists; }
+  /// Makes room for new lists of so many partners, which the caller writes.
+  const Lists &renew(bigint partners);
+
   // as LAMMPS asks of fixes, see KokkosBase
   int pack_exchange(int sent, DAT::tdual_xfloat_2d &buffer, DAT::tdual_int_1d &sendlist,
                     DAT::tdual_int_1d &copylist, ExecutionSpace);

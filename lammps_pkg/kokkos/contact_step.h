@@ -3,10 +3,10 @@
 #define LMP_EEPA_CONTACT_STEP_H
 
 #include "contact_rows.h"
+#include "particle_views.h"
 
 #include "contact_engine.h"
 
-#include <eepa/body.h>
 #include <eepa/coefficients.h>
 #include <eepa/dissipation.h>
 
@@ -54,9 +54,12 @@ struct DeepContact {
 };
 
 /// All that a force call on a device reads and writes. It gathers bodies and scatters wrenches.
-template <class DeviceType> struct ContactStep {
+template <class DeviceType> struct ContactStep : ParticleViews<DeviceType> {
   using Arrays = ArrayTypes<DeviceType>;
-  using Numbers = Kokkos::View<double *, DeviceType>;
+  using typename ParticleViews<DeviceType>::Numbers;
+  using ParticleViews<DeviceType>::mask, ParticleViews<DeviceType>::type, ParticleViews<DeviceType>::f,
+      ParticleViews<DeviceType>::torque, ParticleViews<DeviceType>::freeze_groupbit,
+      ParticleViews<DeviceType>::has_bodies;
   static constexpr bool on_gpu = ExecutionSpaceFromDevice<DeviceType>::space == Device;
 
   int inum = 0;    // of the neighbour list
@@ -64,18 +67,11 @@ template <class DeviceType> struct ContactStep {
   typename Arrays::t_neighbors_2d neighbors;
   ContactRows<DeviceType> rows;
 
-  typename Arrays::t_x_array x;    // of particles
-  typename Arrays::t_v_array v, omega;
-  typename Arrays::t_float_1d radius, rmass;
-  typename Arrays::t_int_1d type, mask;
-  typename Arrays::t_f_array f, torque;
   int written = 0;               // number of particles that get forces
   bool several_write = false;    // several threads may add to the same particle at once
 
-  bool holds_some = false, has_bodies = false;    // as ContactMasses has it
-  int freeze_groupbit = 0;
-  double infinite = 0.0;
-  Numbers body_mass, body;
+  bool holds_some = false;    // as ContactMasses has it
+  Numbers body;
 
   Kokkos::View<const eepa::Coefficients *, DeviceType> coefficients;    // by pair of types
   int stride = 0;
@@ -88,22 +84,12 @@ template <class DeviceType> struct ContactStep {
   Kokkos::View<double **, Kokkos::LayoutRight, DeviceType> losses_of_atoms;
   Kokkos::View<unsigned long long, DeviceType> deep;
 
-  KOKKOS_INLINE_FUNCTION double mass(int i) const
-  {
-    if (mask(i) & freeze_groupbit) return infinite;
-    return has_bodies && body_mass(i) > 0.0 ? body_mass(i) : static_cast<double>(rmass(i));
-  }
   /// Whether two particles can not move each other.
   KOKKOS_INLINE_FUNCTION bool hold_together(int i, int j) const
   {
     if (!holds_some) return false;
     if (mask(i) & mask(j) & freeze_groupbit) return true;
     return has_bodies && body(i) != 0.0 && body(i) == body(j);
-  }
-  KOKKOS_INLINE_FUNCTION eepa::Body<double> body_of(int i) const
-  {
-    return {eepa::Vec3(x(i, 0), x(i, 1), x(i, 2)), eepa::Vec3(v(i, 0), v(i, 1), v(i, 2)),
-            eepa::Vec3(omega(i, 0), omega(i, 1), omega(i, 2)), radius(i), mass(i)};
   }
   KOKKOS_INLINE_FUNCTION const eepa::Coefficients &coefficients_of(int i, int j) const
   {

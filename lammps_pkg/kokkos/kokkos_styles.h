@@ -4,12 +4,15 @@
 
 namespace LAMMPS_NS {
 
-class Pair;
+class Fix;
 class LAMMPS;
+class Pair;
 
 // Makers of the styles for KOKKOS, for source files that are compiled without it.
 Pair *make_gran_eepa_on_device(LAMMPS *);
 Pair *make_gran_eepa_on_host(LAMMPS *);
+Fix *make_wall_gran_eepa_on_device(LAMMPS *, int, char **);
+Fix *make_wall_gran_eepa_on_host(LAMMPS *, int, char **);
 
 }    // namespace LAMMPS_NS
 

@@ -15,28 +15,12 @@
 
 #include <Kokkos_Profiling_ScopedRegion.hpp>
 
-#include <limits>
 #include <type_traits>
 
 using namespace LAMMPS_NS;
 
 namespace {
 constexpr const char *style_name = "pair_style gran/eepa/kk";
-
-/// The host's numbers as a view, without a copy.
-template <class T> auto view_of(const std::vector<T> &numbers)
-{
-  return Kokkos::View<const T *, Kokkos::HostSpace, Kokkos::MemoryUnmanaged>(numbers.data(),
-                                                                             numbers.size());
-}
-
-template <class T, class View>
-void send(const std::vector<T> &numbers, const std::string &name, View &view)
-{
-  if (view.extent(0) != numbers.size())
-    view = View(Kokkos::view_alloc(name, Kokkos::WithoutInitializing), numbers.size());
-  Kokkos::deep_copy(view, view_of(numbers));
-}
 
 /// Lets LAMMPS take a pair style for one of the host while this object lives.
 class AsOnHost {
@@ -167,23 +151,11 @@ template <class DeviceType> ContactStep<DeviceType> PairGranEepaKokkos<DeviceTyp
   step.neighbors = device_list->d_neighbors;
   step.rows = device_history->rows();
 
-  step.x = atomKK->k_x.template view<DeviceType>();
-  step.v = atomKK->k_v.template view<DeviceType>();
-  step.omega = atomKK->k_omega.template view<DeviceType>();
-  step.radius = atomKK->k_radius.template view<DeviceType>();
-  step.rmass = atomKK->k_rmass.template view<DeviceType>();
-  step.type = atomKK->k_type.template view<DeviceType>();
-  step.mask = atomKK->k_mask.template view<DeviceType>();
-  step.f = atomKK->k_f.template view<DeviceType>();
-  step.torque = atomKK->k_torque.template view<DeviceType>();
+  step.take(*atomKK, masses, body_mass);
   step.written = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
   step.several_write = lmp->kokkos->neighflag != HALF;
 
   step.holds_some = masses.holds_some();
-  step.has_bodies = masses.has_bodies();
-  step.freeze_groupbit = masses.freeze_groupbit();
-  step.infinite = std::numeric_limits<double>::infinity();
-  step.body_mass = body_mass;
   step.body = body;
 
   step.coefficients = device_coefficients;
@@ -245,17 +217,17 @@ template <class DeviceType> void PairGranEepaKokkos<DeviceType>::check_radii()
 
 template <class DeviceType> void PairGranEepaKokkos<DeviceType>::send_coefficients()
 {
-  send(coefficients, "eepa:coefficients", device_coefficients);
+  send_to_device(coefficients, "eepa:coefficients", device_coefficients);
   std::vector<double> allowed(atom->ntypes + 1, 0.0);
   for (int type = 1; type <= atom->ntypes; type++) allowed[type] = allowed_radius(type);
-  send(allowed, "eepa:allowed_radius", device_allowed_radius);
+  send_to_device(allowed, "eepa:allowed_radius", device_allowed_radius);
 }
 
 /// Masses and numbers of rigid bodies change with the neighbour list.
 template <class DeviceType> void PairGranEepaKokkos<DeviceType>::send_bodies()
 {
-  send(masses.body_masses(), "eepa:body_mass", body_mass);
-  send(masses.bodies(), "eepa:body", body);
+  send_to_device(masses.body_masses(), "eepa:body_mass", body_mass);
+  send_to_device(masses.bodies(), "eepa:body", body);
 }
 
 template <class DeviceType> void PairGranEepaKokkos<DeviceType>::allocate_tallies_of_atoms()

@@ -5,9 +5,8 @@
 
 #ifdef EEPA_KOKKOS
 
+#include "kokkos_variant.h"
 #include "packing.h"
-
-#include "counts.h"
 
 #include "compute.h"
 #include "force.h"
@@ -19,8 +18,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <dlfcn.h>
 
 using namespace eepa_test;
 
@@ -29,23 +26,6 @@ namespace {
 struct Law {
   const char *name, *style, *coefficients;
   const char *unlike;    ///< coefficients between the two types
-};
-
-/// A LAMMPS with KOKKOS, whatever the environment says, or one without.
-class Variant : public Simulation {
- public:
-  explicit Variant(bool kokkos, MPI_Comm comm = MPI_COMM_WORLD,
-                   KokkosComm kokkos_comm = KokkosComm::device) :
-      Simulation(comm, "none", kokkos ? with_kokkos(kokkos_comm) : std::vector<std::string>())
-  {
-  }
-
- private:
-  static std::vector<std::string> with_kokkos(KokkosComm comm)
-  {
-    const char *threads = std::getenv("EEPA_TEST_KOKKOS");
-    return kokkos_with(threads ? threads : "1", comm);
-  }
 };
 
 class ParallelKokkos : public testing::TestWithParam<Law> {
@@ -273,21 +253,6 @@ TEST(ParallelKokkosExchange, KeepsTheBitsOfHistories)
       EXPECT_EQ(difference(alone.particles(), variant->particles()), 0.0) << model;
   }
 }
-
-/// What Kokkos has done, as tests/kokkos_tool counts it.
-struct KokkosCounts {
-  decltype(&eepa_counted) counted = nullptr;
-  decltype(&eepa_reset_counts) reset = nullptr;
-
-  KokkosCounts()
-  {
-    const char *path = std::getenv("KOKKOS_TOOLS_LIBS");
-    void *library = path ? dlopen(path, RTLD_LAZY | RTLD_NOLOAD) : nullptr;
-    if (!library) return;
-    counted = reinterpret_cast<decltype(counted)>(dlsym(library, "eepa_counted"));
-    reset = reinterpret_cast<decltype(reset)>(dlsym(library, "eepa_reset_counts"));
-  }
-};
 
 // The time of a step with a new list, on a GPU: all that would go over the host.
 TEST(ParallelKokkosExchange, LeavesParticlesAndHistoriesOnTheDevice)

@@ -229,7 +229,10 @@ TEST(Oracle, TrianglesOfFewCorners)
       TriangleMesh::Three sorted = t;
       std::sort(sorted.begin(), sorted.end());
       if (sorted[0] == sorted[1] || sorted[1] == sorted[2]) continue;
-      if (std::find(used.begin(), used.end(), sorted) != used.end()) continue;
+      if (std::any_of(used.begin(), used.end(), [&](const auto &other) {
+            return std::equal(other.begin(), other.end(), sorted.begin());
+          }))
+        continue;
       used.push_back(sorted);
       s.add(corners[t[0]], corners[t[1]], corners[t[2]]);
     }

@@ -4,6 +4,7 @@
 
 #include <eepa_walls/candidates.h>
 #include <eepa_walls/mesh_shape.h>
+#include <eepa_walls/triangle_grid.h>
 
 #include <gtest/gtest.h>
 
@@ -161,6 +162,40 @@ inline Soup drawn_out(const std::vector<Vec3> &profile, double low, double high,
   return s;
 }
 
+/// The contacts by what GPUs use: a grid in place of a tree, and all triangles compared with each other.
+inline std::vector<SurfacePoint> contacts_by_grid(const MeshShape &shape, const Vec3 &x,
+                                                  double radius)
+{
+  const TriangleGrid grid(shape.mesh());
+  const MeshView mesh = shape.view();
+  std::vector<SurfacePiece> pieces, by_tree;
+  for_each_piece(mesh, grid.view(grid.first().data(), grid.triangles().data()), x, radius,
+                 [&](const SurfacePiece &piece) {
+                   pieces.push_back(piece);
+                 });
+  std::sort(pieces.begin(), pieces.end(), is_nearer);
+  shape.collect(x, radius, by_tree);
+  EXPECT_EQ(pieces.size(), by_tree.size());
+  std::vector<MeshTouch> touches;
+  for (std::size_t k = 0; k < std::min(pieces.size(), by_tree.size()); k++) {
+    EXPECT_EQ(pieces[k].number, by_tree[k].number);
+    EXPECT_EQ(pieces[k].distance, by_tree[k].distance);
+    const TrianglePoint at = closest_point(x, mesh.triangle(pieces[k].number));
+    if (at.distance < radius) touches.push_back({at, pieces[k].number, 0, 0});
+  }
+  find_mesh_contacts(mesh, touches.data(), static_cast<int>(touches.size()), x);
+  std::vector<SurfacePoint> found;
+  for (std::size_t k = 0; k < touches.size(); k++)
+    if (touches[k].group == static_cast<int>(k)) {
+      const int t = touches[k].triangle;
+      found.push_back(surface_point(mesh.triangle(t), t, touches[k].at, x));
+    }
+  std::sort(found.begin(), found.end(), [](const SurfacePoint &a, const SurfacePoint &b) {
+    return a.face < b.face;
+  });
+  return found;
+}
+
 /// The contacts of a sphere, candidates from collect() and all else as a driver does it.
 inline std::vector<SurfacePoint> contacts(const MeshShape &shape, const Vec3 &centre, double radius)
 {
@@ -168,6 +203,14 @@ inline std::vector<SurfacePoint> contacts(const MeshShape &shape, const Vec3 &ce
   std::vector<SurfacePoint> found;
   if (shape.collect(centre, radius, pieces))
     shape.visit(centre, radius, pieces.data(), static_cast<int>(pieces.size()), found);
+  // GPUs find them in another way
+  const auto by_grid = contacts_by_grid(shape, centre, radius);
+  EXPECT_EQ(found.size(), by_grid.size()) << centre.transpose() << ", " << radius;
+  for (std::size_t c = 0; c < std::min(found.size(), by_grid.size()); ++c) {
+    EXPECT_EQ(found[c].face, by_grid[c].face);
+    EXPECT_EQ(found[c].distance, by_grid[c].distance);
+    EXPECT_EQ(found[c].normal, by_grid[c].normal);
+  }
   return found;
 }
 

@@ -64,12 +64,8 @@ class Candidates {
     const double moved = dot<double>(path, path) * (1.0 + 1e-12);    // squared
     const SurfacePiece *piece = pieces(k);
     const int count = piece_count(k);
-    const auto is_near = [radius = radii_[k], moved](double distance) {
-      const double gap = distance - radius;
-      return gap <= 0.0 || gap * gap <= moved;
-    };
     int near = 0;
-    while (near < count && is_near(piece[near].distance)) ++near;
+    while (near < count && may_touch(piece[near], radii_[k], moved)) ++near;
     return near;
   }
 

@@ -9,9 +9,6 @@ namespace eepa {
 
 namespace {
 
-  /// Distances that agree to this are the same: a foot beyond an edge by 1e-6 of the distance adds less.
-  constexpr double same_distance = 1.0 + 1e-12;
-
   std::int64_t key_of_vertex(int vertex)
   {
     return 2 * static_cast<std::int64_t>(vertex);
@@ -35,58 +32,9 @@ namespace {
     parents[std::max(i, j)] = std::min(i, j);
   }
 
-  bool has(const TriangleMesh::Three &numbers, int number)
-  {
-    return numbers[0] == number || numbers[1] == number || numbers[2] == number;
-  }
-
-  /// Whether the edge or corner that is touched is one of a triangle's as well.
-  bool has_place_of(const TriangleMesh &mesh, int triangle, const MeshContacts::Touch &touch)
-  {
-    const int number = touch.at.number;
-    switch (touch.at.feature) {
-      case Feature::corner:
-        return has(mesh.facets[triangle].corners, mesh.facets[touch.triangle].corners[number]);
-      case Feature::edge:
-        return has(mesh.facets[triangle].edges, mesh.facets[touch.triangle].edges[number]);
-      default:
-        return false;
-    }
-  }
-
-  bool is_on(const TriangleMesh &mesh, int triangle, const Vec3 &point)
-  {
-    const Triangle &t = mesh.triangle(triangle);
-    if (std::fabs(dot(t.normal, point - t.corner[0])) > mesh.tolerance) return false;
-    return closest_point(point, t).distance <= mesh.tolerance;
-  }
-
 }    // namespace
 
-SurfacePoint surface_point(const TriangleMesh &mesh, int triangle, const TrianglePoint &at,
-                           const Vec3 &centre)
-{
-  SurfacePoint point;
-  point.face = triangle;
-  point.distance = at.distance;
-  point.straight.setZero();
-  const Vec3 &normal = mesh.normal(triangle);
-  if (at.feature == Feature::inside || !(at.distance > 0.0)) {
-    point.normal = at.height < 0.0 ? Vec3(-normal) : normal;
-    return point;
-  }
-  point.normal = (centre - at.point) / at.distance;
-  point.curvature = 1.0 / at.distance;
-  if (at.feature == Feature::edge) {
-    const Vec3 *corner = mesh.triangle(triangle).corner;
-    const Vec3 along = corner[(at.number + 1) % 3] - corner[at.number];
-    point.straight = along / std::sqrt(squared_length(along));
-  }
-  return point;
-}
-
-void MeshContacts::find(const TriangleMesh &mesh, const std::vector<char> &smooth_edges,
-                        double smooth_cosine, const Vec3 &centre, double radius,
+void MeshContacts::find(const MeshView &mesh, const Vec3 &centre, double radius,
                         const SurfacePiece *pieces, int count)
 {
   found_.clear();
@@ -98,13 +46,13 @@ void MeshContacts::find(const TriangleMesh &mesh, const std::vector<char> &smoot
   }
   keep_minima(mesh);
   if (found_.size() > 1) drop_hidden_minima(mesh);
-  if (found_.size() > 1) join_smooth(mesh, smooth_edges, smooth_cosine, centre);
+  if (found_.size() > 1) join_smooth(mesh, centre);
   std::sort(found_.begin(), found_.end(), [](const Touch *a, const Touch *b) {
     return a->triangle < b->triangle;
   });
 }
 
-void MeshContacts::touch(const TriangleMesh &mesh, const Vec3 &centre, double radius,
+void MeshContacts::touch(const MeshView &mesh, const Vec3 &centre, double radius,
                          const SurfacePiece *pieces, int count)
 {
   touched_.clear();
@@ -120,7 +68,7 @@ void MeshContacts::touch(const TriangleMesh &mesh, const Vec3 &centre, double ra
 }
 
 /// Rule (i), for edges and corners that triangles share: a nearer triangle has been there.
-void MeshContacts::keep_minima(const TriangleMesh &mesh)
+void MeshContacts::keep_minima(const MeshView &mesh)
 {
   // so few are compared with each other sooner than they are looked up
   constexpr std::size_t few = 8;
@@ -128,7 +76,8 @@ void MeshContacts::keep_minima(const TriangleMesh &mesh)
     for (const Touch &touch : touched_) {
       const bool nearer_there = std::any_of(static_cast<const Touch *>(touched_.data()), &touch,
                                             [&](const Touch &nearer) {
-                                              return has_place_of(mesh, nearer.triangle, touch);
+                                              return has_place_of(mesh, nearer.triangle,
+                                                                  touch.triangle, touch.at);
                                             });
       if (!nearer_there) found_.push_back(&touch);
     }
@@ -153,7 +102,7 @@ void MeshContacts::keep_minima(const TriangleMesh &mesh)
 /// Rule (i), for triangles that meet elsewhere: a corner on another one's edge, parts that stand on one
 /// another, and the foot that is on an edge to rounding, of which one of the triangles knows and the other
 /// one does not.
-void MeshContacts::drop_hidden_minima(const TriangleMesh &mesh)
+void MeshContacts::drop_hidden_minima(const MeshView &mesh)
 {
   std::size_t kept = 0;
   for (const Touch *minimum : found_) {
@@ -169,8 +118,7 @@ void MeshContacts::drop_hidden_minima(const TriangleMesh &mesh)
 }
 
 /// Rule (ii)
-void MeshContacts::join_smooth(const TriangleMesh &mesh, const std::vector<char> &smooth_edges,
-                               double smooth_cosine, const Vec3 &centre)
+void MeshContacts::join_smooth(const MeshView &mesh, const Vec3 &centre)
 {
   // which touched triangles hang together
   parents_.resize(touched_.size());
@@ -178,22 +126,17 @@ void MeshContacts::join_smooth(const TriangleMesh &mesh, const std::vector<char>
   places_.clear(3 * touched_.size());
   for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
     for (const int edge : mesh.facets[touched_[i].triangle].edges)
-      if (smooth_edges[edge]) join(parents_, i, places_.insert(key_of_edge(edge), i));
+      if (mesh.smooth_edges[edge]) join(parents_, i, places_.insert(key_of_edge(edge), i));
 
   const auto patch_of = [&](const Touch *touch) {
     return root_of(parents_, static_cast<int>(touch - touched_.data()));
-  };
-  const auto lies_on_face = [&](const TrianglePoint &at) {
-    return std::fabs(at.height) >= smooth_cosine * at.distance;
   };
   groups_.resize(found_.size());
   std::iota(groups_.begin(), groups_.end(), 0);
   for (std::size_t j = 1; j < found_.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
-      const TrianglePoint &a = found_[i]->at, &b = found_[j]->at;
-      if (patch_of(found_[i]) != patch_of(found_[j])) continue;
-      if ((lies_on_face(a) && lies_on_face(b)) ||
-          dot(centre - a.point, centre - b.point) >= smooth_cosine * a.distance * b.distance)
+      if (patch_of(found_[i]) == patch_of(found_[j]) &&
+          are_one(mesh, found_[i]->at, found_[j]->at, centre))
         join(groups_, static_cast<int>(i), static_cast<int>(j));
     }
   // the root is the first of its group, and so the deepest

@@ -2,9 +2,9 @@
 #ifndef EEPA_WALLS_MESH_CONTACTS_H
 #define EEPA_WALLS_MESH_CONTACTS_H
 
+#include "mesh_view.h"
 #include "number_map.h"
 #include "shape.h"
-#include "triangle_mesh.h"
 
 #include <vector>
 
@@ -28,22 +28,19 @@ class MeshContacts {
     int triangle;
   };
 
-  /// \param smooth_edges  whether each edge is smooth
-  /// \param smooth_cosine  of the largest angle of smooth edges
   /// \param pieces, count  triangles that may be touched, each once
-  void find(const TriangleMesh &mesh, const std::vector<char> &smooth_edges, double smooth_cosine,
-            const Vec3 &centre, double radius, const SurfacePiece *pieces, int count);
+  void find(const MeshView &mesh, const Vec3 &centre, double radius, const SurfacePiece *pieces,
+            int count);
 
   /// The contacts, by the number of the triangle.
   const std::vector<const Touch *> &found() const { return found_; }
 
  private:
-  void touch(const TriangleMesh &mesh, const Vec3 &centre, double radius,
-             const SurfacePiece *pieces, int count);
-  void keep_minima(const TriangleMesh &mesh);
-  void drop_hidden_minima(const TriangleMesh &mesh);
-  void join_smooth(const TriangleMesh &mesh, const std::vector<char> &smooth_edges,
-                   double smooth_cosine, const Vec3 &centre);
+  void touch(const MeshView &mesh, const Vec3 &centre, double radius, const SurfacePiece *pieces,
+             int count);
+  void keep_minima(const MeshView &mesh);
+  void drop_hidden_minima(const MeshView &mesh);
+  void join_smooth(const MeshView &mesh, const Vec3 &centre);
 
   std::vector<Touch> touched_;          ///< nearest first
   std::vector<const Touch *> found_;    ///< nearest first, until they are sorted at the end
@@ -51,10 +48,6 @@ class MeshContacts {
   std::vector<int> groups_;             ///< of a forest over found_: contacts that are one
   NumberMap places_;                    ///< vertices and edges
 };
-
-/// What a Shape tells of a point of a triangle.
-SurfacePoint surface_point(const TriangleMesh &mesh, int triangle, const TrianglePoint &at,
-                           const Vec3 &centre);
 
 }    // namespace eepa
 

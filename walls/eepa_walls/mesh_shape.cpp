@@ -44,21 +44,22 @@ MeshShape::MeshShape(TriangleMesh mesh, double smooth) : mesh_(std::move(mesh)),
   rounding_ = 1e-15 * mesh_.low.cwiseAbs().cwiseMax(mesh_.high.cwiseAbs()).maxCoeff();
 }
 
+MeshView MeshShape::view() const
+{
+  return {mesh_.facets.data(), smooth_edges_.data(), mesh_.count(),    mesh_.tolerance,
+          rounding_,           smooth_cosine_,       continues_cosine_};
+}
+
 bool MeshShape::collect(const Vec3 &centre, double reach, std::vector<SurfacePiece> &pieces) const
 {
   const std::size_t before = pieces.size();
-  const double off = reach * 1e-12 + rounding_;    // by which distances may be
-  const double safe = reach + off;
-  tree_.for_each_near(centre, safe, [&](int t) {
-    const Triangle &triangle = mesh_.triangle(t);
-    if (!(std::fabs(dot(triangle.normal, centre - triangle.corner[0])) <= safe)) return;
-    const double distance = closest_point(centre, triangle).distance;
-    if (distance <= safe) pieces.push_back({t, piece_distance(distance, off)});
+  const MeshView mesh = view();
+  tree_.for_each_near(centre, mesh.safe(reach), [&](int t) {
+    SurfacePiece piece;
+    if (is_piece(mesh, t, centre, reach, piece)) pieces.push_back(piece);
   });
   std::sort(pieces.begin() + static_cast<std::ptrdiff_t>(before), pieces.end(),
-            [](const SurfacePiece &a, const SurfacePiece &b) {
-              return a.distance != b.distance ? a.distance < b.distance : a.number < b.number;
-            });
+            [](const SurfacePiece &a, const SurfacePiece &b) { return is_nearer(a, b); });
   return pieces.size() > before;
 }
 
@@ -68,14 +69,14 @@ void MeshShape::visit(const Vec3 &centre, double radius, const SurfacePiece *pie
   if (count == 1) {    // mostly, and nothing to compare it with
     const int t = pieces[0].number;
     const TrianglePoint at = closest_point(centre, mesh_.triangle(t));
-    if (at.distance < radius) found.push_back(surface_point(mesh_, t, at, centre));
+    if (at.distance < radius) found.push_back(surface_point(mesh_.triangle(t), t, at, centre));
     return;
   }
   // kept, so that no memory is asked for once it is large enough
   thread_local MeshContacts contacts;
-  contacts.find(mesh_, smooth_edges_, smooth_cosine_, centre, radius, pieces, count);
+  contacts.find(view(), centre, radius, pieces, count);
   for (const MeshContacts::Touch *touch : contacts.found())
-    found.push_back(surface_point(mesh_, touch->triangle, touch->at, centre));
+    found.push_back(surface_point(mesh_.triangle(touch->triangle), touch->triangle, touch->at, centre));
 }
 
 void MeshShape::prefetch(const SurfacePiece *pieces, int count) const
@@ -94,19 +95,13 @@ void MeshShape::prefetch(const SurfacePiece *pieces, int count) const
 
 SurfacePoint MeshShape::nearest(int face, const Vec3 &centre) const
 {
-  return surface_point(mesh_, face, closest_point(centre, mesh_.triangle(face)), centre);
+  const Triangle &triangle = mesh_.triangle(face);
+  return surface_point(triangle, face, closest_point(centre, triangle), centre);
 }
 
 bool MeshShape::continues(int face, const SurfacePoint &now, const Vec3 &centre) const
 {
-  if (face == now.face) return true;
-  if (!has_face(face)) return false;
-  const TrianglePoint at = closest_point(centre, mesh_.triangle(face));
-  if (dot(surface_point(mesh_, face, at, centre).normal, now.normal) >= continues_cosine_)
-    return true;
-  // the foot may have left the old triangle by a second edge
-  const double cosine = dot(mesh_.normal(face), now.normal);
-  return (at.height < 0.0 ? -cosine : cosine) >= continues_cosine_;
+  return eepa::continues(view(), face, now, centre);
 }
 
 bool MeshShape::is_between(const Vec3 &before, const Vec3 &now) const

@@ -2,6 +2,7 @@
 #ifndef EEPA_WALLS_MESH_SHAPE_H
 #define EEPA_WALLS_MESH_SHAPE_H
 
+#include "mesh_view.h"
 #include "shape.h"
 #include "triangle_mesh.h"
 #include "triangle_tree.h"
@@ -46,6 +47,9 @@ class MeshShape : public Shape {
   bool has_face(int face) const override { return face >= 0 && face < mesh_.count(); }
 
   const TriangleMesh &mesh() const { return mesh_; }
+  /// The triangles in plain arrays, as long as this shape lives.
+  MeshView view() const;
+  const std::vector<char> &smooth_edges() const { return smooth_edges_; }
   bool is_smooth(int edge) const { return smooth_edges_[edge] != 0; }
 
  private:

@@ -22,6 +22,15 @@ struct SurfacePoint {
   Vec3 straight = Vec3::Zero();    ///< unit vector along which the normal stays the same, or 0
 };
 
+/// du/dt while the centre moves along a surface that stands still [1/time]
+/// \param velocity  of the centre [length/time]
+EEPA_FUNCTION Vec3 normal_rate(const SurfacePoint &point, const Vec3 &velocity)
+{
+  if (point.curvature == 0.0) return Vec3::Zero();
+  const Vec3 along = velocity - dot<double>(velocity, point.normal) * point.normal;
+  return point.curvature * (along - dot<double>(along, point.straight) * point.straight);
+}
+
 /// A piece of a surface, such as a triangle, that may touch a sphere.
 struct SurfacePiece {
   int number;        ///< known to the shape
@@ -30,11 +39,24 @@ struct SurfacePiece {
 
 /// A distance as a piece has it, for one that may be larger than the true one by rounding.
 /// \param rounding  [length]
-inline float piece_distance(double distance, double rounding)
+EEPA_FUNCTION float piece_distance(double distance, double rounding)
 {
+  using std::nextafter;
   const double least = distance - rounding;
   const auto near = static_cast<float>(least);
-  return near > least ? std::nextafter(near, -HUGE_VALF) : near;
+  return near > least ? nextafter(near, -HUGE_VALF) : near;
+}
+/// Whether a sphere may touch a piece.
+/// \param moved  square of the distance between its centre and that at which the piece was collected [length^2]
+EEPA_FUNCTION bool may_touch(const SurfacePiece &piece, double radius, double moved)
+{
+  const double gap = piece.distance - radius;
+  return gap <= 0.0 || gap * gap <= moved;
+}
+/// Whether a piece comes before another one in a list.
+EEPA_FUNCTION bool is_nearer(const SurfacePiece &a, const SurfacePiece &b)
+{
+  return a.distance != b.distance ? a.distance < b.distance : a.number < b.number;
 }
 
 /// Velocity of a surface at one point.
@@ -77,9 +99,7 @@ class Shape {
   virtual Vec3 normal_rate(const SurfacePoint &point, const Vec3 & /*centre*/,
                            const Vec3 &velocity) const
   {
-    if (point.curvature == 0.0) return Vec3::Zero();
-    const Vec3 along = velocity - dot(velocity, point.normal) * point.normal;
-    return point.curvature * (along - dot(along, point.straight) * point.straight);
+    return eepa::normal_rate(point, velocity);
   }
 
   /// Whether the surface moves in its own frame. Then visit() sees its present position, and nothing is

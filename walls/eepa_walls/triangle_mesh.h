@@ -7,7 +7,7 @@
 #include "stl_file.h"
 #include "triangle.h"
 
-#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace eepa {
@@ -16,7 +16,17 @@ namespace eepa {
 /// All in plain arrays, numbered from 0.
 class TriangleMesh {
  public:
-  using Three = std::array<int, 3>;
+  /// As std::array, for GPUs too.
+  struct Three {
+    int numbers[3];
+
+    EEPA_FUNCTION int &operator[](std::size_t k) { return numbers[k]; }
+    EEPA_FUNCTION const int &operator[](std::size_t k) const { return numbers[k]; }
+    int *begin() { return numbers; }
+    int *end() { return numbers + 3; }
+    const int *begin() const { return numbers; }
+    const int *end() const { return numbers + 3; }
+  };
 
   /// Triangles at an edge.
   struct Edge {
