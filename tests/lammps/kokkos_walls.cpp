@@ -151,7 +151,7 @@ TEST_P(ParallelKokkosWall, TalliesWhatTheHostTallies)
   for (Simulation *simulation : std::initializer_list<Simulation *>{&host, &device}) {
     open(*simulation,
          "fix again all wall/gran/eepa " + std::string(GetParam().law) +
-             " wall zplane -2.3 NULL contacts\n"
+             " wall yplane -2.3 NULL contacts\n"
              "compute ledger all gran/eepa/energy\ncompute losses all gran/eepa/energy/atom\n"
              "compute lost all reduce sum c_losses[*]\n"
              "fix_modify wall virial yes\ncompute pressure all pressure NULL fix\n"
@@ -302,16 +302,16 @@ TEST(ParallelKokkosWallExchange, LeavesParticlesAndHistoriesOnTheDevice)
   if (!kokkos.counted) GTEST_SKIP() << "KOKKOS_TOOLS_LIBS must name the library kokkos_counts";
   open_sliding(simulation,
                "pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8\n"
-               "atom_modify sort 1 1.0\nneigh_modify every 5 delay 0 check no");
-  simulation.run(500);
+               "atom_modify sort 1 1.0\nneigh_modify every 25 delay 0 check no");
+  simulation.run(100);
   kokkos.reset();
-  simulation("run 100 pre no post no");
+  simulation("run 500 pre no post no");    // each row moves by more than its distance to the next
   const auto kernels = [&](const char *name) {
     return kokkos.counted(EEPA_KERNELS, name);
   };
   // two walls; the roof has no candidates
-  EXPECT_EQ(kernels("gran/eepa:find_wall"), 100u);
-  EXPECT_EQ(kernels("gran/eepa:wall"), 100u);
+  EXPECT_EQ(kernels("gran/eepa:find_wall"), 500u);
+  EXPECT_EQ(kernels("gran/eepa:wall"), 500u);
   EXPECT_EQ(kernels("eepa:collect_candidates"), 2u * 20u);
   int ranks;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
