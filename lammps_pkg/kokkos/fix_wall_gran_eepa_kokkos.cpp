@@ -19,15 +19,21 @@
 using namespace LAMMPS_NS;
 using eepa::Vec3;
 
-template <class DeviceType>
-FixWallGranEepaKokkos<DeviceType>::FixWallGranEepaKokkos(LAMMPS *lmp, int narg, char **arg) :
-    FixWallGranEepa(lmp, narg, arg)
+/// Before there is a fix, which could not be destroyed.
+static LAMMPS *with_kokkos(LAMMPS *lmp, char **arg)
 {
   if (!lmp->kokkos)
-    error->all(FLERR,
-               "fix {} wall/gran/eepa/kk: KOKKOS is off; start LAMMPS with -k on, or use "
-               "wall/gran/eepa",
-               id);
+    lmp->error->all(FLERR,
+                    "fix {} wall/gran/eepa/kk: KOKKOS is off; start LAMMPS with -k on, or use "
+                    "wall/gran/eepa",
+                    arg[0]);
+  return lmp;
+}
+
+template <class DeviceType>
+FixWallGranEepaKokkos<DeviceType>::FixWallGranEepaKokkos(LAMMPS *lmp, int narg, char **arg) :
+    FixWallGranEepa(with_kokkos(lmp, arg), narg, arg)
+{
   // loads of faces are summed on the host
   if (!face_loads) surface = make_wall_surface<DeviceType>(*shape);
   if (!surface) return;
@@ -40,6 +46,14 @@ FixWallGranEepaKokkos<DeviceType>::FixWallGranEepaKokkos(LAMMPS *lmp, int narg, 
                                                                        surface->most_contacts());
   device_histories->grow(atom->nmax);
   maxexchange = std::max(maxexchange, device_histories->most_exchanged());
+}
+
+/// Takes the name without suffix: restart files have with the data of particles the name as it is, and give them only
+/// to a fix of the same one.
+template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::post_constructor()
+{
+  delete[] Fix::style;
+  Fix::style = utils::strdup("wall/gran/eepa");
 }
 
 template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::init()

@@ -31,6 +31,7 @@ class FixWallGranEepaKokkos : public FixWallGranEepa, public KokkosBase {
   typedef DeviceType device_type;
 
   FixWallGranEepaKokkos(class LAMMPS *, int, char **);
+  void post_constructor() override;
   void init() override;
   double memory_usage() override;
 
