@@ -65,7 +65,7 @@ def sheet(height, side=0.7, cells=12):
     return stl(triangles)
 
 
-# The sphere is pressed to 0.03 before it comes over the ridge, where it is held at about 0.02, and released after it.
+# The sphere is pressed to 0.029 before it comes over the ridge, where it is drawn back to 0.009, and released after it.
 RIDGE, SLOPE = -0.7, math.tan(math.radians(2.5))
 OVER = {"up": f"-{SLOPE!r}*sqrt((v_along-1.5-({RIDGE}))^2)-0.03*sin(6*v_t)+0.011*exp(0-((v_t-0.4)/0.1)^2)", "vup": "0"}
 FLAT = {"floor.stl": sheet(lambda x: FLOOR)}
