@@ -92,14 +92,15 @@ template <class DeviceType, class ContactLaw, bool tallies> class WallKernel {
       return;
     }
     // the history is where drop_parted() has put it
-    const bigint slot = first +
-        (fresh ? contacts : Kokkos::popcount(s.kept(c) & ((1U << touch.history) - 1U)));
+    const bigint slot =
+        first + (fresh ? contacts : Kokkos::popcount(s.kept(c) & ((1U << touch.history) - 1U)));
     const double time_step = s.request.time_step;
     const eepa::Contact contact = eepa::contact_at_wall(body, touch.wall, time_step);
     eepa::History history;
     if (!fresh) history = eepa::load_history<Layout>(s.rows.history(slot));
     [[maybe_unused]] const eepa::History before = history;
-    const eepa::Response response = ContactLaw::evaluate(s.coefficients, contact, time_step, history);
+    const eepa::Response response =
+        ContactLaw::evaluate(s.coefficients, contact, time_step, history);
     if (!tallies || s.request.advance) {
       eepa::store_history<Layout>(history, s.rows.history(slot));
       s.rows.face(slot) = touch.face;

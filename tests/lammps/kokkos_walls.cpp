@@ -76,8 +76,8 @@ class ParallelKokkosWall : public testing::TestWithParam<Wall> {
   {
     simulation("pair_style zero 1.0\npair_coeff * *\ntimestep 1e-4\nfix integrate all nve/sphere\n"
                "region ball sphere 0 0 0 3.2");
-    const std::string wall = std::string(GetParam().law) + " wall " +
-        with(GetParam().wall, "MESH", mesh.name());
+    const std::string wall =
+        std::string(GetParam().law) + " wall " + with(GetParam().wall, "MESH", mesh.name());
     simulation("fix wall all wall/gran/eepa " + wall + "\nfix side all wall/gran/eepa " +
                GetParam().law + " wall xplane -2.6 2.6\n" + after);
   }
@@ -233,7 +233,8 @@ const Wall walls[] = {
      "zplane -2.6 2.6 wiggle z 0.25 0.1", true},
     {"coming", "luding coeff 1e4 2e4 5e3 -1 0.5 depth 0.02 restitution 0.8 bound contact",
      "yplane NULL 4 velocity 3 -8 1", true},
-    {"belt", "linear exponent 1.5 coeff 1e4 3e4 5e3 -0.1 0.5 kt 3e3 restitution 0.8 rolling constant 0.1",
+    {"belt",
+     "linear exponent 1.5 coeff 1e4 3e4 5e3 -0.1 0.5 kt 3e3 restitution 0.8 rolling constant 0.1",
      "zplane -2.6 NULL shear x 5", true},
     {"turntable", adhesive, "zplane -2.6 2.6 rotate 0.3 0 0 0 0 1 9", true},
     {"platen", adhesive, "zplane NULL 3 load -2000 mass 20 damping 10", true},
@@ -248,9 +249,10 @@ const Wall walls[] = {
     {"mesh_faces", adhesive, "mesh MESH faces 50", false},
     {"region", adhesive, "region ball", false},
 };
-INSTANTIATE_TEST_SUITE_P(Shapes, ParallelKokkosWall, testing::ValuesIn(walls), [](const auto &info) {
-  return std::string(info.param.name);
-});
+INSTANTIATE_TEST_SUITE_P(Shapes, ParallelKokkosWall, testing::ValuesIn(walls),
+                         [](const auto &info) {
+                           return std::string(info.param.name);
+                         });
 
 /// A plane to which particles stick while they slide along it through processors, and turn.
 void open_sliding(Simulation &simulation, const std::string &after = "")
@@ -324,8 +326,8 @@ TEST(ParallelKokkosWallExchange, LeavesParticlesAndHistoriesOnTheDevice)
   EXPECT_EQ(simulation.lammps()->kokkos->exchange_comm_classic, 0);
   EXPECT_GE(kernels("Sort::CopyPermute"), 20u * 18u);    // 9 arrays of particles, 3 of each owner
   EXPECT_EQ(kokkos.counted(EEPA_REGIONS, "gran/eepa: "), 0u);
-  for (const char *histories : {"eepa:status", "eepa:quads", "eepa:partners:quads", "eepa:wall:quads",
-                                "eepa:wall:touches"})
+  for (const char *histories :
+       {"eepa:status", "eepa:quads", "eepa:partners:quads", "eepa:wall:quads", "eepa:wall:touches"})
     EXPECT_EQ(kokkos.counted(EEPA_COPIED_BYTES, histories), 0u) << histories;
 
   // the counts tell: a restart file brings histories to the host
@@ -362,11 +364,11 @@ TEST(KokkosWall, StopsAsTheHost)
     for (const bool on_device : {false, true}) {
       Variant simulation(on_device);
       simulation.open_box(5.0);
-      simulation.create({{Vec3(0.5, 0, 0), Vec3(0, 0, 0)},
-                         {Vec3(1, 0, 0), Vec3(40, 0, -40)}});
-      simulation("pair_style zero 1.0\npair_coeff * *\ntimestep 1e-2\nfix integrate all nve/sphere\n"
-                 "fix wall all wall/gran/eepa linear dtcheck off coeff 10 20 5 0 0.5 wall " +
-                 std::string(wall[0]));
+      simulation.create({{Vec3(0.5, 0, 0), Vec3(0, 0, 0)}, {Vec3(1, 0, 0), Vec3(40, 0, -40)}});
+      simulation(
+          "pair_style zero 1.0\npair_coeff * *\ntimestep 1e-2\nfix integrate all nve/sphere\n"
+          "fix wall all wall/gran/eepa linear dtcheck off coeff 10 20 5 0 0.5 wall " +
+          std::string(wall[0]));
       const std::string message = error_of(simulation, "run 200");
       EXPECT_NE(message.find(wall[1]), std::string::npos) << message;
       EXPECT_NE(message.find("atom 2"), std::string::npos) << message;
