@@ -304,16 +304,16 @@ TEST(ParallelKokkosWallExchange, LeavesParticlesAndHistoriesOnTheDevice)
   if (!kokkos.counted) GTEST_SKIP() << "KOKKOS_TOOLS_LIBS must name the library kokkos_counts";
   open_sliding(simulation,
                "pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8\n"
-               "atom_modify sort 1 1.0\nneigh_modify every 25 delay 0 check no");
+               "atom_modify sort 1 1.0\nneigh_modify every 50 delay 0 check no");
   simulation.run(100);
   kokkos.reset();
-  simulation("run 500 pre no post no");    // each row moves by more than its distance to the next
+  simulation("run 1000 pre no post no");    // each row moves by more than its distance to the next
   const auto kernels = [&](const char *name) {
     return kokkos.counted(EEPA_KERNELS, name);
   };
   // two walls; the roof has no candidates
-  EXPECT_EQ(kernels("gran/eepa:find_wall"), 500u);
-  EXPECT_EQ(kernels("gran/eepa:wall"), 500u);
+  EXPECT_EQ(kernels("gran/eepa:find_wall"), 1000u);
+  EXPECT_EQ(kernels("gran/eepa:wall"), 1000u);
   EXPECT_EQ(kernels("eepa:collect_candidates"), 2u * 20u);
   int ranks;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
