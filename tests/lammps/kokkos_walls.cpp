@@ -255,7 +255,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ParallelKokkosWall, testing::ValuesIn(walls),
                          });
 
 /// A plane to which particles stick while they slide along it through processors, and turn.
-void open_sliding(Simulation &simulation, const std::string &after = "")
+void open_sliding(Simulation &simulation, const std::string &after = "",
+                  const std::string &before_walls = "")
 {
   simulation("processors * 1 1");
   simulation.open_box(3.0, 1, "p p f", "off");
@@ -270,8 +271,9 @@ void open_sliding(Simulation &simulation, const std::string &after = "")
     spheres.push_back(sphere);
   }
   simulation.create(spheres);
-  simulation("pair_style zero 1.0\npair_coeff * *\ntimestep 1e-4\nfix integrate all nve/sphere\n"
-             "fix floor all wall/gran/eepa linear coeff 1e4 2e4 1e4 -100 0.5 restitution 0.8 "
+  simulation("pair_style zero 1.0\npair_coeff * *\ntimestep 1e-4\nfix integrate all nve/sphere\n" +
+             before_walls +
+             "\nfix floor all wall/gran/eepa linear coeff 1e4 2e4 1e4 -100 0.5 restitution 0.8 "
              "rolling sds 1e3 1 0.1 twisting marshall wall zplane -2.9 NULL\n"
              "fix roof all wall/gran/eepa linear coeff 1e4 2e4 1e4 -100 0.5 restitution 0.8 wall "
              "zplane NULL 2.9\nneighbor 0.3 bin\n" +
@@ -302,9 +304,11 @@ TEST(ParallelKokkosWallExchange, LeavesParticlesAndHistoriesOnTheDevice)
   Variant simulation(true);
   const KokkosCounts kokkos;
   if (!kokkos.counted) GTEST_SKIP() << "KOKKOS_TOOLS_LIBS must name the library kokkos_counts";
-  open_sliding(simulation,
-               "pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8\n"
-               "atom_modify sort 1 1.0\nneigh_modify every 50 delay 0 check no");
+  const char *beside =
+      "suffix on\n"
+      "pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8\n"
+      "atom_modify sort 1 1.0\nneigh_modify every 50 delay 0 check no";
+  open_sliding(simulation, beside);
   simulation.run(100);
   kokkos.reset();
   simulation("run 1000 pre no post no");    // each row moves by more than its distance to the next
@@ -335,6 +339,16 @@ TEST(ParallelKokkosWallExchange, LeavesParticlesAndHistoriesOnTheDevice)
   const ScratchFile file(".restart");
   simulation("write_restart " + file.name());
   EXPECT_EQ(kokkos.counted(EEPA_REGIONS, "gran/eepa: wall histories to the host"), 2u);
+
+  // and walls of the host make LAMMPS sort there, so that the histories of pairs go over it
+  Variant beside_host(true);
+  open_sliding(beside_host, beside, "suffix off");
+  beside_host.run(100);
+  kokkos.reset();
+  beside_host("run 1000 pre no post no");
+  EXPECT_EQ(kernels("gran/eepa:wall"), 0u);
+  EXPECT_EQ(kernels("Sort::CopyPermute"), 0u);
+  EXPECT_GE(kokkos.counted(EEPA_REGIONS, "gran/eepa: partners to the device"), 10u);
 }
 
 // Particles come and go: LAMMPS works on the host then.
