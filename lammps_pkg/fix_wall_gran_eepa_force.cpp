@@ -94,8 +94,8 @@ void FixWallGranEepa::add_contacts()
 {
   if (candidates_are_old()) collect_candidates();
   // the evaluation in lanes gives neither losses nor the status that these requests need
-  may_wait = !waiting_outcomes.empty() && request.advance && !keep_ledger && !contact_table &&
-      !face_loads;
+  may_wait =
+      !waiting_outcomes.empty() && request.advance && !keep_ledger && !contact_table && !face_loads;
   // an error may have ended the run before in the midst of a force call
   waiting_contacts.clear();
   waiting.clear();
@@ -342,10 +342,10 @@ eepa::WallPoint<double> FixWallGranEepa::wall_point(const SurfacePoint &point,
                                                     const Vec3 &centre) const
 {
   const Vec3 relative = body.v - placement.velocity_at(body.x);
-  eepa::WallPoint<double> wall = eepa::touched_wall(
-      point, body, placement,
-      shape->normal_rate(point, centre, placement.direction_to_shape(relative)), surface_speed,
-      request.time_step);
+  eepa::WallPoint<double> wall =
+      eepa::touched_wall(point, body, placement,
+                         shape->normal_rate(point, centre, placement.direction_to_shape(relative)),
+                         surface_speed, request.time_step);
   if (shape->moves()) {
     const eepa::SurfaceVelocity own = shape->velocity(
         point, centre, 0.5 * request.time_step * placement.direction_to_shape(relative));

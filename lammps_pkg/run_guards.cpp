@@ -127,7 +127,8 @@ std::string LAMMPS_NS::advice_on_device(LAMMPS *lmp)
   const Pair *pair = lmp->force->pair_match("^gran/eepa", 0, 1);
   if (!pair || pair->execution_space != Device) return "";
   return "this wall is evaluated on the host, as regions, meshes with keyword faces and style "
-         "wall/gran/eepa without suffix kk are: the data of all particles are copied to the host and "
+         "wall/gran/eepa without suffix kk are: the data of all particles are copied to the host "
+         "and "
          "back in every step";
 }
 

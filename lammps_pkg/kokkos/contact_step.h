@@ -57,9 +57,9 @@ struct DeepContact {
 template <class DeviceType> struct ContactStep : ParticleViews<DeviceType> {
   using Arrays = ArrayTypes<DeviceType>;
   using typename ParticleViews<DeviceType>::Numbers;
-  using ParticleViews<DeviceType>::mask, ParticleViews<DeviceType>::type, ParticleViews<DeviceType>::f,
-      ParticleViews<DeviceType>::torque, ParticleViews<DeviceType>::freeze_groupbit,
-      ParticleViews<DeviceType>::has_bodies;
+  using ParticleViews<DeviceType>::mask, ParticleViews<DeviceType>::type,
+      ParticleViews<DeviceType>::f, ParticleViews<DeviceType>::torque,
+      ParticleViews<DeviceType>::freeze_groupbit, ParticleViews<DeviceType>::has_bodies;
   static constexpr bool on_gpu = ExecutionSpaceFromDevice<DeviceType>::space == Device;
 
   int inum = 0;    // of the neighbour list

@@ -2,6 +2,7 @@
 #include "fix_wall_gran_eepa_kokkos.h"
 
 #include "kokkos_styles.h"
+#include "wall_search.h"
 
 #include "compute_gran_eepa_energy_atom.h"
 
@@ -138,8 +139,7 @@ template <class DeviceType> WallStep<DeviceType> FixWallGranEepaKokkos<DeviceTyp
 }
 
 /// As collect_candidates()
-template <class DeviceType>
-void FixWallGranEepaKokkos<DeviceType>::collect_on_device(Step &step)
+template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::collect_on_device(Step &step)
 {
   step.margin = margin_of_candidates();
   const int particles = atom->nlocal;
@@ -168,21 +168,6 @@ void FixWallGranEepaKokkos<DeviceType>::collect_on_device(Step &step)
     Kokkos::deep_copy(buffers.table_rows, 0.0);
   }
 }
-
-namespace {
-template <class DeviceType> struct LongestPath {
-  typename ArrayTypes<DeviceType>::t_x_array now, before;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int i, double &longest) const
-  {
-    const double x = now(i, 0) - before(i, 0), y = now(i, 1) - before(i, 1),
-                 z = now(i, 2) - before(i, 2);
-    const double squared = x * x + y * y + z * z;
-    // one that is not a number counts as far
-    if (!(squared <= longest)) longest = squared <= 1e300 ? squared : 1e300;
-  }
-};
-}    // namespace
 
 /// Whether an atom has left the place where it was collected, where neighbour lists do not say so.
 template <class DeviceType> bool FixWallGranEepaKokkos<DeviceType>::one_is_far() const
@@ -308,8 +293,7 @@ template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::set_arrays(i
   FixWallGranEepa::set_arrays(i);
 }
 
-template <class DeviceType>
-int FixWallGranEepaKokkos<DeviceType>::pack_exchange(int i, double *buf)
+template <class DeviceType> int FixWallGranEepaKokkos<DeviceType>::pack_exchange(int i, double *buf)
 {
   if (surface) device_histories->bring_to_host(atom->nlocal);
   return FixWallGranEepa::pack_exchange(i, buf);
@@ -322,15 +306,13 @@ int FixWallGranEepaKokkos<DeviceType>::unpack_exchange(int i, double *buf)
   return FixWallGranEepa::unpack_exchange(i, buf);
 }
 
-template <class DeviceType>
-int FixWallGranEepaKokkos<DeviceType>::pack_restart(int i, double *buf)
+template <class DeviceType> int FixWallGranEepaKokkos<DeviceType>::pack_restart(int i, double *buf)
 {
   if (surface) device_histories->bring_to_host(atom->nlocal);
   return FixWallGranEepa::pack_restart(i, buf);
 }
 
-template <class DeviceType>
-void FixWallGranEepaKokkos<DeviceType>::unpack_restart(int i, int nth)
+template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::unpack_restart(int i, int nth)
 {
   if (surface) device_histories->change_on_host(atom->nlocal);
   FixWallGranEepa::unpack_restart(i, nth);
@@ -386,13 +368,13 @@ template <class DeviceType> double FixWallGranEepaKokkos<DeviceType>::memory_usa
   const double bytes = FixWallGranEepa::memory_usage();
   if (!surface) return bytes;
   return bytes + device_histories->memory_usage() +
-      static_cast<double>(
-             buffers.found.span() * sizeof(int) + buffers.kept.span() * sizeof(unsigned) +
-             buffers.parted.span() * sizeof(int) +
-             (buffers.touches.span() + buffers.partings.span()) * sizeof(WallTouch) +
-             (buffers.table_rows.span() + buffers.atom_losses.span() + buffers.atom_virial.span() +
-              body_mass.span() + device_places.span()) *
-                 sizeof(double));
+      static_cast<double>(buffers.found.span() * sizeof(int) +
+                          buffers.kept.span() * sizeof(unsigned) +
+                          buffers.parted.span() * sizeof(int) +
+                          (buffers.touches.span() + buffers.partings.span()) * sizeof(WallTouch) +
+                          (buffers.table_rows.span() + buffers.atom_losses.span() +
+                           buffers.atom_virial.span() + body_mass.span() + device_places.span()) *
+                              sizeof(double));
 }
 
 /* ---------------------------------------------------------------------- */

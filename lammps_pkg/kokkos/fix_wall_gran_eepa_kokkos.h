@@ -72,7 +72,7 @@ class FixWallGranEepaKokkos : public FixWallGranEepa, public KokkosBase {
   std::unique_ptr<WallHistoriesKokkos<DeviceType>> device_histories;
   std::unique_ptr<const ContactEngineKokkos<DeviceType>> device_engine;
 
-  Kokkos::View<double *, DeviceType> body_mass;    // of fix rigid, as in ContactMasses
+  Kokkos::View<double *, DeviceType> body_mass;                // of fix rigid, as in ContactMasses
   typename ArrayTypes<DeviceType>::t_x_array device_places;    // as `places`
   bool watches_places = false;
   Step buffers;    // of which only the arrays are kept

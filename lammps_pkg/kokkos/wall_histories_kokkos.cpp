@@ -170,10 +170,9 @@ void WallHistoriesKokkos<DeviceType>::put_beside(WallSurfaceKokkos<DeviceType> &
 template <class DeviceType> double WallHistoriesKokkos<DeviceType>::memory_usage() const
 {
   return lists.memory_usage() +
-      static_cast<double>((beside.particle.span() + beside.count.span() + beside.face.span()) *
-                              sizeof(int) +
-                          beside.first.span() * sizeof(bigint) +
-                          beside.quads.span() * sizeof(eepa::Quad));
+      static_cast<double>(
+             (beside.particle.span() + beside.count.span() + beside.face.span()) * sizeof(int) +
+             beside.first.span() * sizeof(bigint) + beside.quads.span() * sizeof(eepa::Quad));
 }
 
 namespace LAMMPS_NS {

@@ -18,10 +18,12 @@ template <class DeviceType> struct MeshOnDevice {
   eepa::MeshView mesh;
   eepa::TriangleGridView grid;
 
-  Kokkos::View<int *, DeviceType> near;            ///< of a particle, the number of triangles that it may touch
-  Kokkos::View<bigint *, DeviceType> first;        ///< first piece of a candidate, and the end of all
+  Kokkos::View<int *, DeviceType>
+      near;    ///< of a particle, the number of triangles that it may touch
+  Kokkos::View<bigint *, DeviceType> first;    ///< first piece of a candidate, and the end of all
   Kokkos::View<SurfacePiece *, DeviceType> pieces;    ///< of a candidate, the nearest first
-  Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> centres;    ///< of candidates when they were collected
+  Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType>
+      centres;    ///< of candidates when they were collected
   Kokkos::View<eepa::MeshTouch *, DeviceType> touches;    ///< of a force call, beside the pieces
 
   KOKKOS_INLINE_FUNCTION bool is_near(int i, const Vec3 &, double) const { return near(i) > 0; }
@@ -135,22 +137,22 @@ template <class DeviceType> struct FillPieces {
     for (int k = 0; k < 3; k++) surface.centres(c, k) = centre[k];
     const bigint begin = surface.first(c);
     bigint end = begin;
-    eepa::for_each_piece(surface.mesh, surface.grid, centre, s.radius(i) + s.margin,
-                         [&](const SurfacePiece &piece) {
-                           bigint at = end++;
-                           for (; at > begin && eepa::is_nearer(piece, surface.pieces(at - 1)); at--)
-                             surface.pieces(at) = surface.pieces(at - 1);
-                           surface.pieces(at) = piece;
-                         });
+    eepa::for_each_piece(
+        surface.mesh, surface.grid, centre, s.radius(i) + s.margin, [&](const SurfacePiece &piece) {
+          bigint at = end++;
+          for (; at > begin && eepa::is_nearer(piece, surface.pieces(at - 1)); at--)
+            surface.pieces(at) = surface.pieces(at - 1);
+          surface.pieces(at) = piece;
+        });
   }
 };
 
 template <class DeviceType>
 class WallMeshKokkos final : public WallSurfaceOf<DeviceType, MeshOnDevice<DeviceType>> {
   using Base = WallSurfaceOf<DeviceType, MeshOnDevice<DeviceType>>;
+  using Base::surface;
   using typename Base::Range;
   using typename Base::Step;
-  using Base::surface;
 
  public:
   explicit WallMeshKokkos(const eepa::MeshShape &shape) : Base(MeshOnDevice<DeviceType>())

@@ -53,6 +53,20 @@ template <class DeviceType, class Surface> struct FindOneBehind {
   }
 };
 
+/// Square of the longest way that a particle has gone since it was collected.
+template <class DeviceType> struct LongestPath {
+  typename ArrayTypes<DeviceType>::t_x_array now, before;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i, double &longest) const
+  {
+    const double x = now(i, 0) - before(i, 0), y = now(i, 1) - before(i, 1),
+                 z = now(i, 2) - before(i, 2);
+    const double squared = x * x + y * y + z * z;
+    // one that is not a number counts as far
+    if (!(squared <= longest)) longest = squared <= 1e300 ? squared : 1e300;
+  }
+};
+
 template <class DeviceType, class Surface> struct CollectCandidates {
   WallStep<DeviceType> s;
   Surface surface;

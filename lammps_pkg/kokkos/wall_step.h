@@ -14,9 +14,9 @@ namespace LAMMPS_NS {
 struct WallTouch {
   eepa::WallPoint<double> wall;
   int face;
-  int history;               ///< number of its history among those of the particle; -1 where it has none
-  eepa::Vec3 normal;         ///< in the shape's frame
-  double distance;           ///< [length]
+  int history;          ///< number of its history among those of the particle; -1 where it has none
+  eepa::Vec3 normal;    ///< in the shape's frame
+  double distance;      ///< [length]
 };
 
 /// Histories of a wall's contacts on a device, beside the particles that may touch it (candidates). Each candidate has
@@ -32,7 +32,10 @@ template <class DeviceType> struct WallRows {
   Kokkos::View<eepa::Quad *, DeviceType> quads;
   int quads_of_slot = 2;
 
-  KOKKOS_INLINE_FUNCTION eepa::Quad &place(bigint slot) const { return quads(slot * quads_of_slot); }
+  KOKKOS_INLINE_FUNCTION eepa::Quad &place(bigint slot) const
+  {
+    return quads(slot * quads_of_slot);
+  }
   KOKKOS_INLINE_FUNCTION eepa::Vec3 normal(bigint slot) const
   {
     const eepa::Quad &quad = place(slot);
@@ -66,8 +69,9 @@ struct WallStop {
 
 /// Sums over the contacts with a wall.
 struct WallSums {
-  double force[2][3] = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};    ///< on the wall's first and second plane
-  double moment[3] = {0.0, 0.0, 0.0};                         ///< on the wall
+  double force[2][3] = {{0.0, 0.0, 0.0},
+                        {0.0, 0.0, 0.0}};    ///< on the wall's first and second plane
+  double moment[3] = {0.0, 0.0, 0.0};        ///< on the wall
   double contacts = 0.0;
   double energy = 0.0;    ///< recoverable
   bigint stop = 0;        ///< see WallStop
@@ -100,7 +104,16 @@ struct WallTallies : WallSums {
 
 /// Columns of the table that keyword `contacts` asks for, as FixWallGranEepa has them.
 struct WallTable {
-  enum { CONTACTS, FORCE, POINT = FORCE + 3, OVERLAP = POINT + 3, MAX_OVERLAP, BRANCH, SLIP, COLUMNS };
+  enum {
+    CONTACTS,
+    FORCE,
+    POINT = FORCE + 3,
+    OVERLAP = POINT + 3,
+    MAX_OVERLAP,
+    BRANCH,
+    SLIP,
+    COLUMNS
+  };
 };
 
 /// Makes room in a view, whose contents are lost.
@@ -134,10 +147,11 @@ template <class DeviceType> struct WallStep : ParticleViews<DeviceType> {
   bool losses_of_atoms = false;
 
   // what the search for contacts leaves for the law
-  Kokkos::View<int *, DeviceType> found;          ///< contacts of a candidate; a WallStop::Reason less 100 where the run must stop
-  Kokkos::View<unsigned *, DeviceType> kept;      ///< bit m: history m has a contact
+  Kokkos::View<int *, DeviceType>
+      found;    ///< contacts of a candidate; a WallStop::Reason less 100 where the run must stop
+  Kokkos::View<unsigned *, DeviceType> kept;        ///< bit m: history m has a contact
   Kokkos::View<WallTouch *, DeviceType> touches;    ///< of a slot
-  Kokkos::View<int *, DeviceType> parted;         ///< contacts of a candidate that are none any more
+  Kokkos::View<int *, DeviceType> parted;    ///< contacts of a candidate that are none any more
   Kokkos::View<WallTouch *, DeviceType> partings;    ///< two for a slot
 
   Table table_rows;     // of WallTable

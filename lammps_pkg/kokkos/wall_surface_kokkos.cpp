@@ -24,7 +24,8 @@ template <class DeviceType> struct PlaceEqualSlots {
 template <class DeviceType, class Surface>
 class WallOfFewFaces final : public WallSurfaceOf<DeviceType, Surface> {
  public:
-  using WallSurfaceOf<DeviceType, Surface>::WallSurfaceOf, WallSurfaceOf<DeviceType, Surface>::surface;
+  using WallSurfaceOf<DeviceType, Surface>::WallSurfaceOf,
+      WallSurfaceOf<DeviceType, Surface>::surface;
   using typename WallSurfaceOf<DeviceType, Surface>::Step;
 
   int most_contacts() const override { return surface.room(); }

@@ -33,8 +33,7 @@ template <class DeviceType> class WallSurfaceKokkos {
   virtual void find(const Step &) const = 0;
 };
 
-template <class DeviceType>
-using MadeSurface = std::unique_ptr<WallSurfaceKokkos<DeviceType>>;
+template <class DeviceType> using MadeSurface = std::unique_ptr<WallSurfaceKokkos<DeviceType>>;
 
 /// The shape for a device; nullptr where it has none.
 template <class DeviceType> MadeSurface<DeviceType> make_wall_surface(const eepa::Shape &);

@@ -76,8 +76,8 @@ class ParallelKokkosWall : public testing::TestWithParam<Wall> {
   {
     simulation("pair_style zero 1.0\npair_coeff * *\ntimestep 1e-4\nfix integrate all nve/sphere\n"
                "region ball sphere 0 0 0 3.2");
-    const std::string wall = std::string(GetParam().law) + " wall " +
-        with(GetParam().wall, "MESH", mesh.name());
+    const std::string wall =
+        std::string(GetParam().law) + " wall " + with(GetParam().wall, "MESH", mesh.name());
     simulation("fix wall all wall/gran/eepa " + wall + "\nfix side all wall/gran/eepa " +
                GetParam().law + " wall xplane -2.6 2.6\n" + after);
   }
@@ -233,7 +233,8 @@ const Wall walls[] = {
      "zplane -2.6 2.6 wiggle z 0.25 0.1", true},
     {"coming", "luding coeff 1e4 2e4 5e3 -1 0.5 depth 0.02 restitution 0.8 bound contact",
      "yplane NULL 4 velocity 3 -8 1", true},
-    {"belt", "linear exponent 1.5 coeff 1e4 3e4 5e3 -0.1 0.5 kt 3e3 restitution 0.8 rolling constant 0.1",
+    {"belt",
+     "linear exponent 1.5 coeff 1e4 3e4 5e3 -0.1 0.5 kt 3e3 restitution 0.8 rolling constant 0.1",
      "zplane -2.6 NULL shear x 5", true},
     {"turntable", adhesive, "zplane -2.6 2.6 rotate 0.3 0 0 0 0 1 9", true},
     {"platen", adhesive, "zplane NULL 3 load -2000 mass 20 damping 10", true},
@@ -248,12 +249,14 @@ const Wall walls[] = {
     {"mesh_faces", adhesive, "mesh MESH faces 50", false},
     {"region", adhesive, "region ball", false},
 };
-INSTANTIATE_TEST_SUITE_P(Shapes, ParallelKokkosWall, testing::ValuesIn(walls), [](const auto &info) {
-  return std::string(info.param.name);
-});
+INSTANTIATE_TEST_SUITE_P(Shapes, ParallelKokkosWall, testing::ValuesIn(walls),
+                         [](const auto &info) {
+                           return std::string(info.param.name);
+                         });
 
 /// A plane to which particles stick while they slide along it through processors, and turn.
-void open_sliding(Simulation &simulation, const std::string &after = "")
+void open_sliding(Simulation &simulation, const std::string &after = "",
+                  const std::string &before_walls = "")
 {
   simulation("processors * 1 1");
   simulation.open_box(3.0, 1, "p p f", "off");
@@ -268,8 +271,9 @@ void open_sliding(Simulation &simulation, const std::string &after = "")
     spheres.push_back(sphere);
   }
   simulation.create(spheres);
-  simulation("pair_style zero 1.0\npair_coeff * *\ntimestep 1e-4\nfix integrate all nve/sphere\n"
-             "fix floor all wall/gran/eepa linear coeff 1e4 2e4 1e4 -100 0.5 restitution 0.8 "
+  simulation("pair_style zero 1.0\npair_coeff * *\ntimestep 1e-4\nfix integrate all nve/sphere\n" +
+             before_walls +
+             "\nfix floor all wall/gran/eepa linear coeff 1e4 2e4 1e4 -100 0.5 restitution 0.8 "
              "rolling sds 1e3 1 0.1 twisting marshall wall zplane -2.9 NULL\n"
              "fix roof all wall/gran/eepa linear coeff 1e4 2e4 1e4 -100 0.5 restitution 0.8 wall "
              "zplane NULL 2.9\nneighbor 0.3 bin\n" +
@@ -300,18 +304,20 @@ TEST(ParallelKokkosWallExchange, LeavesParticlesAndHistoriesOnTheDevice)
   Variant simulation(true);
   const KokkosCounts kokkos;
   if (!kokkos.counted) GTEST_SKIP() << "KOKKOS_TOOLS_LIBS must name the library kokkos_counts";
-  open_sliding(simulation,
-               "pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8\n"
-               "atom_modify sort 1 1.0\nneigh_modify every 25 delay 0 check no");
+  const char *beside =
+      "suffix on\n"
+      "pair_style gran/eepa linear\npair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution 0.8\n"
+      "atom_modify sort 1 1.0\nneigh_modify every 50 delay 0 check no";
+  open_sliding(simulation, beside);
   simulation.run(100);
   kokkos.reset();
-  simulation("run 500 pre no post no");    // each row moves by more than its distance to the next
+  simulation("run 1000 pre no post no");    // each row moves by more than its distance to the next
   const auto kernels = [&](const char *name) {
     return kokkos.counted(EEPA_KERNELS, name);
   };
   // two walls; the roof has no candidates
-  EXPECT_EQ(kernels("gran/eepa:find_wall"), 500u);
-  EXPECT_EQ(kernels("gran/eepa:wall"), 500u);
+  EXPECT_EQ(kernels("gran/eepa:find_wall"), 1000u);
+  EXPECT_EQ(kernels("gran/eepa:wall"), 1000u);
   EXPECT_EQ(kernels("eepa:collect_candidates"), 2u * 20u);
   int ranks;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
@@ -324,8 +330,8 @@ TEST(ParallelKokkosWallExchange, LeavesParticlesAndHistoriesOnTheDevice)
   EXPECT_EQ(simulation.lammps()->kokkos->exchange_comm_classic, 0);
   EXPECT_GE(kernels("Sort::CopyPermute"), 20u * 18u);    // 9 arrays of particles, 3 of each owner
   EXPECT_EQ(kokkos.counted(EEPA_REGIONS, "gran/eepa: "), 0u);
-  for (const char *histories : {"eepa:status", "eepa:quads", "eepa:partners:quads", "eepa:wall:quads",
-                                "eepa:wall:touches"})
+  for (const char *histories :
+       {"eepa:status", "eepa:quads", "eepa:partners:quads", "eepa:wall:quads", "eepa:wall:touches"})
     EXPECT_EQ(kokkos.counted(EEPA_COPIED_BYTES, histories), 0u) << histories;
 
   // the counts tell: a restart file brings histories to the host
@@ -333,6 +339,16 @@ TEST(ParallelKokkosWallExchange, LeavesParticlesAndHistoriesOnTheDevice)
   const ScratchFile file(".restart");
   simulation("write_restart " + file.name());
   EXPECT_EQ(kokkos.counted(EEPA_REGIONS, "gran/eepa: wall histories to the host"), 2u);
+
+  // and walls of the host make LAMMPS sort there, so that the histories of pairs go over it
+  Variant beside_host(true);
+  open_sliding(beside_host, beside, "suffix off");
+  beside_host.run(100);
+  kokkos.reset();
+  beside_host("run 1000 pre no post no");
+  EXPECT_EQ(kernels("gran/eepa:wall"), 0u);
+  EXPECT_EQ(kernels("Sort::CopyPermute"), 0u);
+  EXPECT_GE(kokkos.counted(EEPA_REGIONS, "gran/eepa: partners to the device"), 10u);
 }
 
 // Particles come and go: LAMMPS works on the host then.
@@ -362,11 +378,11 @@ TEST(KokkosWall, StopsAsTheHost)
     for (const bool on_device : {false, true}) {
       Variant simulation(on_device);
       simulation.open_box(5.0);
-      simulation.create({{Vec3(0.5, 0, 0), Vec3(0, 0, 0)},
-                         {Vec3(1, 0, 0), Vec3(40, 0, -40)}});
-      simulation("pair_style zero 1.0\npair_coeff * *\ntimestep 1e-2\nfix integrate all nve/sphere\n"
-                 "fix wall all wall/gran/eepa linear dtcheck off coeff 10 20 5 0 0.5 wall " +
-                 std::string(wall[0]));
+      simulation.create({{Vec3(0.5, 0, 0), Vec3(0, 0, 0)}, {Vec3(1, 0, 0), Vec3(40, 0, -40)}});
+      simulation(
+          "pair_style zero 1.0\npair_coeff * *\ntimestep 1e-2\nfix integrate all nve/sphere\n"
+          "fix wall all wall/gran/eepa linear dtcheck off coeff 10 20 5 0 0.5 wall " +
+          std::string(wall[0]));
       const std::string message = error_of(simulation, "run 200");
       EXPECT_NE(message.find(wall[1]), std::string::npos) << message;
       EXPECT_NE(message.find("atom 2"), std::string::npos) << message;

@@ -9,8 +9,7 @@ namespace eepa {
 /// Cosine of the angle by which the normal of a contact has turned, 1 where it was not known.
 EEPA_FUNCTION double alikeness(const Vec3 &normal_before, const Vec3 &normal_now)
 {
-  const bool known =
-      normal_before[0] != 0.0 || normal_before[1] != 0.0 || normal_before[2] != 0.0;
+  const bool known = normal_before[0] != 0.0 || normal_before[1] != 0.0 || normal_before[2] != 0.0;
   return known ? dot<double>(normal_before, normal_now) : 1.0;
 }
 

@@ -74,11 +74,10 @@ void MeshContacts::keep_minima(const MeshView &mesh)
   constexpr std::size_t few = 8;
   if (touched_.size() <= few) {
     for (const Touch &touch : touched_) {
-      const bool nearer_there = std::any_of(static_cast<const Touch *>(touched_.data()), &touch,
-                                            [&](const Touch &nearer) {
-                                              return has_place_of(mesh, nearer.triangle,
-                                                                  touch.triangle, touch.at);
-                                            });
+      const bool nearer_there = std::any_of(
+          static_cast<const Touch *>(touched_.data()), &touch, [&](const Touch &nearer) {
+            return has_place_of(mesh, nearer.triangle, touch.triangle, touch.at);
+          });
       if (!nearer_there) found_.push_back(&touch);
     }
     return;

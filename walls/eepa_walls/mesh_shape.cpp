@@ -59,7 +59,9 @@ bool MeshShape::collect(const Vec3 &centre, double reach, std::vector<SurfacePie
     if (is_piece(mesh, t, centre, reach, piece)) pieces.push_back(piece);
   });
   std::sort(pieces.begin() + static_cast<std::ptrdiff_t>(before), pieces.end(),
-            [](const SurfacePiece &a, const SurfacePiece &b) { return is_nearer(a, b); });
+            [](const SurfacePiece &a, const SurfacePiece &b) {
+              return is_nearer(a, b);
+            });
   return pieces.size() > before;
 }
 
@@ -76,7 +78,8 @@ void MeshShape::visit(const Vec3 &centre, double radius, const SurfacePiece *pie
   thread_local MeshContacts contacts;
   contacts.find(view(), centre, radius, pieces, count);
   for (const MeshContacts::Touch *touch : contacts.found())
-    found.push_back(surface_point(mesh_.triangle(touch->triangle), touch->triangle, touch->at, centre));
+    found.push_back(
+        surface_point(mesh_.triangle(touch->triangle), touch->triangle, touch->at, centre));
 }
 
 void MeshShape::prefetch(const SurfacePiece *pieces, int count) const

@@ -177,8 +177,7 @@ EEPA_FUNCTION void find_mesh_contacts(const MeshView &mesh, MeshTouch *touches, 
     if (touch.group < 0) continue;
     for (int m = 0; m < k && touch.group >= 0; m++)
       if (is_on(mesh, touches[m].triangle, touch.at.point) ||
-          (touches[m].group >= 0 &&
-           touch.at.distance <= touches[m].at.distance * same_distance &&
+          (touches[m].group >= 0 && touch.at.distance <= touches[m].at.distance * same_distance &&
            is_on(mesh, touch.triangle, touches[m].at.point)))
         touch.group = -1;
     contacts -= touch.group < 0;

@@ -13,7 +13,7 @@ class RigidMotion {
  public:
   Vec3 displacement = Vec3::Zero();    ///< [length]
   Vec3 velocity = Vec3::Zero();        ///< of the displacement [length/time]
-  Vec3 pivot = Vec3::Zero();    ///< point of the axis of rotation less displacement [length]
+  Vec3 pivot = Vec3::Zero();           ///< point of the axis of rotation less displacement [length]
 
   EEPA_FUNCTION bool is_turned() const { return is_turned_; }
   EEPA_FUNCTION const Vec3 &angular_velocity() const { return angular_velocity_; }
@@ -52,7 +52,8 @@ class RigidMotion {
   /// Velocity of the shape at a moving point, some time ago [length/time]
   /// \param velocity_of_point  [length/time]
   /// \param time  before the present, short
-  EEPA_FUNCTION Vec3 velocity_before(const Vec3 &point, const Vec3 &velocity_of_point, double time) const
+  EEPA_FUNCTION Vec3 velocity_before(const Vec3 &point, const Vec3 &velocity_of_point,
+                                     double time) const
   {
     if (!turns_) return velocity;
     return velocity_at(point - time * (velocity_of_point - velocity));
@@ -76,8 +77,8 @@ class Placement : public RigidMotion {
   // kept in restart files, and the pivot
   Eigen::Quaterniond begun_at = Eigen::Quaterniond::Identity();    ///< Q when the rotation began
   Vec3 shift_begun_at = Vec3::Zero();                              ///< c at that time [length]
-  Vec3 axis = Vec3(0.0, 0.0, 1.0);    ///< unit vector
-  double angle = 0.0;                 ///< since the rotation began
+  Vec3 axis = Vec3(0.0, 0.0, 1.0);                                 ///< unit vector
+  double angle = 0.0;                                              ///< since the rotation began
 
   /// Begins a rotation about an axis. What has been turned before stays turned.
   void begin_rotation(const Vec3 &point, const Vec3 &unit_axis)

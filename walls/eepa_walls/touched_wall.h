@@ -42,8 +42,7 @@ EEPA_FUNCTION WallPoint<double> at_end_of_step(const WallPoint<double> &wall,
 {
   WallPoint<double> now = wall;
   const Vec3 spot = middle_of_overlap(body, wall.normal, wall.overlap);
-  now.velocity +=
-      motion.velocity_at(spot) - motion.velocity_before(spot, body.v, 0.5 * time_step);
+  now.velocity += motion.velocity_at(spot) - motion.velocity_before(spot, body.v, 0.5 * time_step);
   return now;
 }
 

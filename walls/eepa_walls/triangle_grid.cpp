@@ -12,7 +12,8 @@ TriangleGrid::TriangleGrid(const TriangleMesh &mesh)
   view_.low = mesh.low;
   view_.high = mesh.high;
   constexpr double most_cells = 1 << 23;
-  const std::size_t most_entries = (std::size_t{1} << 20) + 64 * static_cast<std::size_t>(mesh.count());
+  const std::size_t most_entries =
+      (std::size_t{1} << 20) + 64 * static_cast<std::size_t>(mesh.count());
   double cells = std::min(8.0 * mesh.count(), most_cells);
   place_cells(cells);
   while (!fill(mesh, most_entries)) {
