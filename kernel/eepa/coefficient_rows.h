@@ -51,7 +51,8 @@ class CoefficientRows {
   static constexpr std::size_t numbers = detail::row_members<double>.size();
   static constexpr std::size_t rows = (numbers + 3) / 4;
 
-  EEPA_FUNCTION explicit CoefficientRows(const Coefficients &c)
+  // made once a run, by the host
+  explicit CoefficientRows(const Coefficients &c)
   {
     for (std::size_t k = 0; k < numbers; k++) numbers_[k] = c.*detail::row_members<double>[k];
   }
