@@ -162,17 +162,17 @@ TEST(Step, LossesAndEnergiesAddUp)
     EXPECT_EQ(sum.by_kind().value[k], 1.5 * (k + 1.0));
 
   StoredEnergy energy;
-  energy.normal = 1.0;
+  energy.normal = 3.0;
   energy.tangential = 2.0;
   energy.rolling = 4.0;
   energy.twisting = 8.0;
   StoredEnergy more = energy;
   more.add(energy, 0.5);
-  EXPECT_EQ(more.normal, 1.5);
+  EXPECT_EQ(more.normal, 4.5);
   EXPECT_EQ(more.tangential, 3.0);
   EXPECT_EQ(more.rolling, 6.0);
   EXPECT_EQ(more.twisting, 12.0);
-  EXPECT_EQ(more.total(), 22.5);
+  EXPECT_EQ(more.total(), 25.5);
 }
 
 TEST(Step, OverlapOfSpheresNowAndBefore)
