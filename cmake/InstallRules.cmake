@@ -93,7 +93,7 @@ install(DIRECTORY examples DESTINATION "${_eepa_data}" COMPONENT examples USE_SO
 install(FILES README.md CHANGELOG.md ARCHITECTURE.md CONTRIBUTING.md CITATION.cff LICENSE
   DESTINATION "${_eepa_doc}" COMPONENT doc)
 file(GLOB_RECURSE _eepa_pages CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}"
-  docs/*.md docs/*.rst tests/*.md benchmarks/*.md benchmarks/*.png benchmarks/*.txt
+  docs/*.md docs/*.rst tests/*.md walls/*.md lammps_pkg/*.md benchmarks/*.md benchmarks/*.png benchmarks/*.txt
   lammps_pkg/doc/*.rst lammps_pkg/doc/*.png lammps_pkg/doc/*.svg)
 list(FILTER _eepa_pages EXCLUDE REGEX "/CMakeLists\\.txt$")
 foreach(_eepa_page IN LISTS _eepa_pages)
