@@ -128,8 +128,7 @@ std::string LAMMPS_NS::advice_on_device(LAMMPS *lmp)
   if (!pair || pair->execution_space != Device) return "";
   return "this wall is evaluated on the host, as regions, meshes with keyword faces and style "
          "wall/gran/eepa without suffix kk are: the data of all particles are copied to the host "
-         "and "
-         "back in every step";
+         "and back in every step";
 }
 
 std::string LAMMPS_NS::advice_on_rerun(LAMMPS *lmp)

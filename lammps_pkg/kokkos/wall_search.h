@@ -139,7 +139,7 @@ template <class DeviceType, class Surface> struct FindTouches {
     if (member && s.books_setup) note_parted_after_setup(c, n, had, body, centre);
     for (int k = 0; k < n; k++) {
       WallTouch &touch = s.touches(first + k);
-      touch.wall = wall_of(point_of(touch, centre), body);
+      touch.wall = wall_of(point_of(touch), body);
     }
   }
 
@@ -164,7 +164,7 @@ template <class DeviceType, class Surface> struct FindTouches {
     {
       const int face = of.s.rows.face(first + m);
       return same_face ? face == touch(k).face
-                       : of.surface.continues(face, of.point_of(touch(k), centre), centre);
+                       : of.surface.continues(face, of.point_of(touch(k)), centre);
     }
     KOKKOS_INLINE_FUNCTION void match(int k, int m) const
     {
@@ -184,7 +184,7 @@ template <class DeviceType, class Surface> struct FindTouches {
     touch.wall.overlap = point.curvature;
     touch.wall.normal = point.straight;
   }
-  KOKKOS_INLINE_FUNCTION Point point_of(const WallTouch &touch, const Vec3 &) const
+  KOKKOS_INLINE_FUNCTION Point point_of(const WallTouch &touch) const
   {
     Point point;
     point.face = touch.face;
