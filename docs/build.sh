@@ -5,6 +5,12 @@
 #   docs/build.sh [FOLDER]      FOLDER: where it goes, build/site by default; open its index.html, no server is needed
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+case ${1:-} in
+-h | --help)
+    sed -n '2,5s/^#\( \|$\)//p' "${BASH_SOURCE[0]}"
+    exit 0
+    ;;
+esac
 folder=${1:-${BUILD_DIR:-$root/build}/site}
 # Debian's packages belong to the system's Python, which need not be the first one on PATH.
 python=${PYTHON:-/usr/bin/python3}

@@ -10,6 +10,12 @@
 # BUILD_DIR names another build folder; TARGETS what to build (everything); EEPA_CACHE another place for LAMMPS.
 set -euo pipefail
 
+case ${1:-} in
+-h | --help)
+    sed -n '2,10s/^#\( \|$\)//p' "${BASH_SOURCE[0]}"
+    exit 0
+    ;;
+esac
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${BUILD_DIR:-$root/build}
 ask=no

@@ -11,7 +11,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 build=${EEPA_BUILD_DIR:-${BUILD_DIR:-$root/build}}
 if [ ! -f "$build/eepaplugin.so" ] || [ ! -x "$build/lmp" ]; then
-    echo "run.sh: $build has no eepaplugin.so and lmp: run scripts/setup.sh, or set BUILD_DIR" >&2
+    echo "run.sh: $build has no eepaplugin.so and lmp: run scripts/setup.sh in the source tree, or set BUILD_DIR" >&2
     exit 1
 fi
 

@@ -35,6 +35,12 @@ class Readme(unittest.TestCase):
     def test_shows_the_in_file_as_it_is(self):
         self.assertIn(f"```\n{IN_FILE.read_text(encoding='utf-8')}```\n", TEXT)
 
+    def test_commands_name_in_files_that_are_there(self):
+        files = re.findall(r"-in (\S+?)[`\s]", TEXT)
+        self.assertGreater(len(files), 1)
+        for file in files:
+            self.assertTrue((ROOT / file).exists(), file)
+
     def test_links_lead_somewhere(self):
         links = re.findall(r"\]\(([^)]+)\)", TEXT)
         self.assertGreater(len(links), 15)
