@@ -66,8 +66,10 @@ def line(powder: Powder, loading: Loading, diameter: float, wanted: Dict[str, fl
                                      _known(calibrated, quantity))
                    for quantity in wanted}
     objections = [reason for p in predictions.values() for reason in p.outside]
+    # allowed is the same factor up and down
     objections += [f"{quantity} is off by {100 * p.low:+.1f} to {100 * p.high:+.1f}%, allowed are "
-                   f"{100 * wanted[quantity]:g}%" for quantity, p in predictions.items()
+                   f"{100 * (1.0 / (1.0 + wanted[quantity]) - 1.0):+.1f} to {100 * wanted[quantity]:+.1f}%"
+                   for quantity, p in predictions.items()
                    if not max(-math.log1p(p.low), math.log1p(p.high)) <= math.log1p(wanted[quantity])]
     if calibrated is not None:
         objections += [f"what the coefficients leave open in {quantity} is not known" for quantity in wanted
