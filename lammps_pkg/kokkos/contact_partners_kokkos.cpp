@@ -55,6 +55,10 @@ template <class DeviceType> void ContactPartnersKokkos<DeviceType>::reserve(bigi
   const bigint needed = used + partners;
   if (needed <= static_cast<bigint>(lists.ids.extent(0))) return;
   const bigint reserved = needed + needed / 8;    // the number of contacts varies a little
+  if (used == 0) {                                // first, so that there is never memory for both
+    lists.ids = decltype(lists.ids)();
+    lists.quads = decltype(lists.quads)();
+  }
   auto ids = uninitialized<decltype(lists.ids)>("eepa:partners:ids", reserved);
   auto quads =
       uninitialized<decltype(lists.quads)>("eepa:partners:quads", reserved * quads_of_contact);
@@ -108,6 +112,7 @@ void ContactPartnersKokkos<DeviceType>::collect(const List &list, const Rows &ro
                         PlaceLists<DeviceType>{lists}, partners);
   Kokkos::parallel_reduce("eepa:most_partners", Range<DeviceType>(0, particles),
                           LargestCount<DeviceType>{lists}, Kokkos::Max<int>(largest_count));
+  largest_count = std::max(largest_count, 0);    // of no particles it is the least integer
   used = 0;
   reserve(partners);
   used = partners;
@@ -227,8 +232,8 @@ ContactPartnersKokkos<DeviceType>::room_on_host(bigint partners) const
   host.first = Kokkos::create_mirror(lists.first);
   host.count = Kokkos::create_mirror(lists.count);
   host.owner = Kokkos::create_mirror(lists.owner);
-  host.ids = decltype(host.ids)("eepa:partners:ids", partners);
-  host.quads = decltype(host.quads)("eepa:partners:quads", partners * quads_of_contact);
+  host.ids = decltype(host.ids)("eepa:partners:ids:host", partners);
+  host.quads = decltype(host.quads)("eepa:partners:quads:host", partners * quads_of_contact);
   return host;
 }
 

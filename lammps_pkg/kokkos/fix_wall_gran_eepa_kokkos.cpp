@@ -67,7 +67,7 @@ template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::init()
 
 template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::warn_of_device()
 {
-  if (!surface) FixWallGranEepa::warn_of_device();
+  if (!surface || execution_space == Host) FixWallGranEepa::warn_of_device();
 }
 
 template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::bring_sizes_to_host()
@@ -270,6 +270,8 @@ template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::stop_run(big
   for (const eepa::SurfacePoint &point : found)
     if (eepa::too_deep(radius - point.distance, radius))
       stop_at_overlap(i, point.face, radius - point.distance);
+  error->one(FLERR, "fix {} wall/gran/eepa/kk: atom {} overlaps the wall by more than its radius",
+             id, atom->tag[i]);
 }
 
 /* ---------------------------------------------------------------------- histories that go along */
@@ -332,6 +334,13 @@ template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::write_restar
   FixWallGranEepa::write_restart(file);
 }
 
+/// Planes are where the file has them.
+template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::restart(char *buf)
+{
+  FixWallGranEepa::restart(buf);
+  if (surface) surface = make_wall_surface<DeviceType>(*shape);
+}
+
 template <class DeviceType>
 int FixWallGranEepaKokkos<DeviceType>::pack_exchange_kokkos(const int &sent,
                                                             DAT::tdual_xfloat_2d &buffer,
@@ -340,8 +349,7 @@ int FixWallGranEepaKokkos<DeviceType>::pack_exchange_kokkos(const int &sent,
                                                             ExecutionSpace space)
 {
   particles_are_moved = true;
-  return device_histories->change_lists(atom->nlocal)
-      .pack_exchange(sent, buffer, sendlist, copylist, space);
+  return device_histories->change_lists().pack_exchange(sent, buffer, sendlist, copylist, space);
 }
 
 template <class DeviceType>
@@ -352,15 +360,15 @@ void FixWallGranEepaKokkos<DeviceType>::unpack_exchange_kokkos(DAT::tdual_xfloat
                                                                ExecutionSpace space)
 {
   particles_are_moved = true;
-  device_histories->change_lists(atom->nlocal)
-      .unpack_exchange(buffer, indices, received, received_first, numbers_first, space);
+  device_histories->change_lists().unpack_exchange(buffer, indices, received, received_first,
+                                                   numbers_first, space);
 }
 
 template <class DeviceType>
 void FixWallGranEepaKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)
 {
   particles_are_moved = true;
-  device_histories->change_lists(atom->nlocal).sort(sorter);
+  device_histories->change_lists().sort(sorter);
 }
 
 template <class DeviceType> double FixWallGranEepaKokkos<DeviceType>::memory_usage()

@@ -44,6 +44,7 @@ class FixWallGranEepaKokkos : public FixWallGranEepa, public KokkosBase {
   void unpack_restart(int, int) override;
   int size_restart(int) override;
   void write_restart(FILE *) override;
+  void restart(char *) override;
 
   int pack_exchange_kokkos(const int &, DAT::tdual_xfloat_2d &, DAT::tdual_int_1d,
                            DAT::tdual_int_1d, ExecutionSpace) override;
@@ -66,7 +67,7 @@ class FixWallGranEepaKokkos : public FixWallGranEepa, public KokkosBase {
   void prepare_tallies(Step &);
   void take_tallies(const Step &, const WallTallies &);
   void take_sums(const WallSums &);
-  void stop_run(bigint stop);
+  [[noreturn]] void stop_run(bigint stop);
 
   MadeSurface<DeviceType> surface;    // or none: all is on the host
   std::unique_ptr<WallHistoriesKokkos<DeviceType>> device_histories;

@@ -85,17 +85,20 @@ template <class DeviceType> void WallHistoriesKokkos<DeviceType>::lists_from_row
   Kokkos::parallel_for("eepa:fill_wall_lists", range, FillLists<DeviceType>{both});
 }
 
-template <class DeviceType> void WallHistoriesKokkos<DeviceType>::lists_from_host(int particles)
+/// Of all places: while LAMMPS exchanges particles on the device it has changed their number before it asks for what
+/// goes with them.
+template <class DeviceType> void WallHistoriesKokkos<DeviceType>::lists_from_host()
 {
   const Kokkos::Profiling::ScopedRegion region("gran/eepa: wall histories to the device");
+  const auto places = static_cast<int>(host.places());
   bigint contacts = 0;
-  for (int i = 0; i < particles; i++) contacts += static_cast<bigint>(host.list(i).size());
+  for (int i = 0; i < places; i++) contacts += static_cast<bigint>(host.list(i).size());
   auto copy = lists.room_on_host(contacts);
   Kokkos::deep_copy(copy.count, 0);
   Kokkos::deep_copy(copy.first, 0);
   Kokkos::deep_copy(copy.owner, 0);
   bigint at = 0;
-  for (int i = 0; i < particles; i++) {
+  for (int i = 0; i < places; i++) {
     const auto &list = host.list(i);
     copy.first(i) = at;
     copy.count(i) = static_cast<int>(list.size());
@@ -110,24 +113,24 @@ template <class DeviceType> void WallHistoriesKokkos<DeviceType>::lists_from_hos
   lists.from_host(copy, most);
 }
 
-template <class DeviceType> void WallHistoriesKokkos<DeviceType>::make_lists(int particles)
+template <class DeviceType> void WallHistoriesKokkos<DeviceType>::make_lists()
 {
   if (lists_are_valid) return;
   if (rows_are_valid)
     lists_from_rows();
   else
-    lists_from_host(particles);
+    lists_from_host();
   lists_are_valid = true;
 }
 
 template <class DeviceType> void WallHistoriesKokkos<DeviceType>::bring_to_host(int particles)
 {
   if (host_is_valid) return;
-  make_lists(particles);
+  make_lists();
   const Kokkos::Profiling::ScopedRegion region("gran/eepa: wall histories to the host");
   const auto copy = lists.to_host();
+  for (int i = 0; i < static_cast<int>(host.places()); i++) host.clear(i);
   for (int i = 0; i < particles; i++) {
-    host.clear(i);
     for (int m = 0; m < copy.count(i); m++) {
       const eepa::Quad *quads = &copy.quads((copy.first(i) + m) * beside.quads_of_slot);
       eepa::FaceHistory contact;
@@ -148,9 +151,9 @@ template <class DeviceType> void WallHistoriesKokkos<DeviceType>::change_on_host
 }
 
 template <class DeviceType>
-ContactPartnersKokkos<DeviceType> &WallHistoriesKokkos<DeviceType>::change_lists(int particles)
+ContactPartnersKokkos<DeviceType> &WallHistoriesKokkos<DeviceType>::change_lists()
 {
-  make_lists(particles);
+  make_lists();
   host_is_valid = rows_are_valid = false;
   return lists;
 }
@@ -159,7 +162,7 @@ template <class DeviceType>
 void WallHistoriesKokkos<DeviceType>::put_beside(WallSurfaceKokkos<DeviceType> &surface,
                                                  const WallStep<DeviceType> &step, int particles)
 {
-  make_lists(particles);
+  make_lists();
   surface.collect(beside, step, lists.all(), particles);
   Kokkos::parallel_for("eepa:put_wall_histories",
                        Kokkos::RangePolicy<DeviceType>(0, beside.candidates),

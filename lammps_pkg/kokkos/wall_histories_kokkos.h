@@ -36,14 +36,14 @@ template <class DeviceType> class WallHistoriesKokkos {
   const WallRows<DeviceType> &rows() const { return beside; }
   void force_call_changes_them() { lists_are_valid = host_is_valid = false; }
   /// By particle, which are about to move.
-  Partners &change_lists(int particles);
+  Partners &change_lists();
 
   double memory_usage() const;
 
  private:
-  void make_lists(int particles);
+  void make_lists();
   void lists_from_rows();
-  void lists_from_host(int particles);
+  void lists_from_host();
 
   eepa::FaceHistories &host;
   const int size, most;

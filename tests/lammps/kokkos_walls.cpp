@@ -370,6 +370,75 @@ TEST(ParallelKokkosWallInsertion, IsThatOfTheHost)
   EXPECT_GT(host.fix("floor", CONTACTS), 50.0);
 }
 
+// In a step in which the host has changed histories, LAMMPS sends particles from the device: it has counted them anew by then.
+// The four on the floor are the last of this process; four others leave it when one is inserted.
+TEST(ParallelKokkosWallInsertion, LeavesHistoriesToThoseThatFillGaps)
+{
+  std::vector<double> state[2];
+  for (const bool on_device : {false, true}) {
+    Variant simulation(on_device);
+    simulation("atom_modify sort 0 0\nprocessors * 1 1");
+    simulation.open_box(10.0);
+    std::vector<Sphere> spheres;
+    for (int k = 0; k < 4; k++) spheres.push_back({Vec3(-0.01, 1.5 * k - 3, 2), Vec3(0, 0, 0)});
+    for (int k = 0; k < 4; k++) spheres.push_back({Vec3(-8, 1.5 * k - 3, -9.501), Vec3(0, 0, -1)});
+    simulation.create(spheres);
+    simulation(
+        "group mover id 1:4\npair_style zero 1.0\npair_coeff * *\nneighbor 3.0 bin\n"
+        "neigh_modify every 1 delay 0 check yes\ntimestep 1e-4\nfix integrate all nve/sphere\n"
+        "fix floor all wall/gran/eepa linear coeff 1e4 4e4 5e3 0 0.5 restitution 0.3 wall "
+        "zplane -10 NULL contacts");
+    simulation.run(150);    // those on the floor rebound
+    simulation("velocity mover set 200 NULL NULL\nregion slab block -5 -4 0 1 5 6\n"
+               "fix deposit all deposit 1 1 100 4767 region slab attempt 200 vz -1 -1 units box");
+    simulation.run(20);
+    EXPECT_EQ(simulation.fix("floor", CONTACTS), 4.0);
+    for (const auto &particle : simulation.particles()) state[on_device].push_back(particle.x.z());
+    for (int id = 5; id <= 8; id++)
+      for (const double value : simulation.fix_row("floor", id)) state[on_device].push_back(value);
+  }
+  ASSERT_EQ(state[0].size(), 9u + 4u * 11u);
+  ASSERT_EQ(state[1].size(), state[0].size());
+  for (std::size_t k = 0; k < state[0].size(); k++) EXPECT_EQ(state[0][k], state[1][k]) << k;
+}
+
+TEST(KokkosWall, StaysWhereTheRestartFileHasIt)
+{
+  double height[2];
+  for (const bool on_device : {false, true}) {
+    const ScratchFile file(".restart");
+    const std::string commands =
+        "pair_style zero 1.0\npair_coeff * *\ntimestep 1e-3\nfix integrate all nve/sphere\n"
+        "fix weight all gravity 10 vector 0 0 -1\n"
+        "fix floor all wall/gran/eepa linear coeff 1e4 2e4 5e3 0 0.5 wall zplane ";
+    Variant writer(on_device), reader(on_device);
+    writer.open_box(5.0);
+    writer.create({{Vec3(0, 0, -3.4), Vec3(0, 0, 0)}});
+    writer(commands + "-4 NULL");
+    writer.run(50);
+    writer("write_restart " + file.name());
+    reader("read_restart " + file.name() + "\ncomm_modify vel yes\n" + commands + "-3.9 NULL");
+    reader.run(200);
+    height[on_device] = reader.particle(1).x.z();
+  }
+  EXPECT_EQ(height[0], height[1]);
+}
+
+// LAMMPS reserves room by the largest number of partners, which of no particles is not the least integer.
+TEST(ParallelKokkosWallExchange, StartsWithoutParticles)
+{
+  for (const bool some : {false, true}) {
+    Variant simulation(true);
+    simulation("processors * 1 1");
+    simulation.open_box(5.0);
+    if (some) simulation.create({{Vec3(-3, 0, 0), Vec3(0, 0, 0)}});
+    simulation("pair_style gran/eepa linear largest 1.0\npair_coeff * * 1e4 2e4 5e3 -1 0.5\n"
+               "timestep 1e-4\nfix integrate all nve/sphere\n"
+               "fix floor all wall/gran/eepa linear coeff 1e4 2e4 5e3 0 0.5 wall zplane -4 NULL");
+    for (int k = 0; k < 4; k++) EXPECT_NO_THROW(simulation.run(2)) << k;
+  }
+}
+
 TEST(KokkosWall, StopsAsTheHost)
 {
   const char *const walls[][2] = {{"zplane -2 NULL", "overlaps the wall by"},

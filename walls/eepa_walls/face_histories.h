@@ -65,6 +65,8 @@ class FaceHistories {
 
   /// Makes room for particles. \param count  at least as many as before
   void grow(std::size_t count) { list_of_.resize(count, none); }
+  /// For how many particles there is room.
+  std::size_t places() const { return list_of_.size(); }
 
   /// Puts the lists in the order in which particles will be asked for, one after the other in memory. No list
   /// moves from then on while only these particles get contacts.
