@@ -43,11 +43,8 @@ function(_eepa_find_vtk variable)
 endfunction()
 
 # Arguments that add KOKKOS to LAMMPS, with the Kokkos in its tree or with an installed one.
-function(_eepa_kokkos_arguments source version variable)
-  if(NOT date EQUAL 20250204)
-    message(FATAL_ERROR "EEPA_KOKKOS=on needs LAMMPS 4 Feb 2025, and ${source} has ${version}: "
-      "the classes of KOKKOS differ between versions, and gran/eepa/kk was written for that one")
-  endif()
+function(_eepa_kokkos_arguments source date version variable)
+  _eepa_require_kokkos_version("${source}" ${date} "${version}")
   if(NOT IS_DIRECTORY "${source}/src/KOKKOS")
     message(FATAL_ERROR "EEPA_KOKKOS=on: ${source} has no src/KOKKOS")
   endif()

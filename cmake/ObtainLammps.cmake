@@ -98,7 +98,7 @@ function(_eepa_obtain_lammps)
 
   set(kokkos "")
   if(EEPA_KOKKOS)
-    _eepa_kokkos_arguments("${source}" "${version}" kokkos)
+    _eepa_kokkos_arguments("${source}" ${date} "${version}" kokkos)
   endif()
 
   # The key has everything that could make a library differ, so that configurations never share one by mistake.
@@ -114,8 +114,11 @@ ${EEPA_LAMMPS_ARGS}|${_eepa_flags}|${_eepa_machine}|$ENV{LDFLAGS}|recipe 2${kokk
   if(LAMMPS_SOURCE_DIR OR NOT EXISTS "${stamp}")
     _eepa_lock("${build}")
     if(NOT EXISTS "${stamp}")
-      message(STATUS "LAMMPS ${version}: building its shared library, once "
-        "(about 5 minutes on two cores), in ${build}")
+      set(duration "about 5 minutes")
+      if(EEPA_KOKKOS)
+        set(duration "up to an hour with KOKKOS")
+      endif()
+      message(STATUS "LAMMPS ${version}: building its shared library, once (${duration} on two cores), in ${build}")
     endif()
     if(LAMMPS_SOURCE_DIR OR NOT EXISTS "${stamp}")
       _eepa_build_lammps("${source}" "${build}")

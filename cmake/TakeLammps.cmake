@@ -41,9 +41,17 @@ function(_eepa_take_lammps)
     message(FATAL_ERROR "${given}: this LAMMPS ${version} has no PLUGIN package and can load no plugin. Build it "
       "with\n  cmake -D PKG_PLUGIN=on ${build}")
   endif()
+  if(EEPA_KOKKOS)
+    _eepa_require_kokkos_version("${source}" ${date} "${version}")
+    if(NOT "-DLMP_KOKKOS" IN_LIST command)
+      message(FATAL_ERROR "EEPA_KOKKOS=on: ${given} has no KOKKOS package. Build it with\n"
+        "  cmake -D PKG_KOKKOS=on ${build}")
+    endif()
+  endif()
   get_filename_component(compiler "${compiler}" REALPATH)
   get_filename_component(own "${CMAKE_CXX_COMPILER}" REALPATH)
-  if(NOT compiler STREQUAL own)
+  # nvcc_wrapper leaves classes to the compiler that it calls
+  if(NOT compiler STREQUAL own AND NOT compiler MATCHES "/nvcc_wrapper$")
     message(WARNING "${given} was compiled by ${compiler}, and the plugin will be by ${own}. Give the former with "
       "-D CMAKE_CXX_COMPILER, unless you know that both agree on the layout of classes")
   endif()

@@ -28,8 +28,8 @@ cmake/CMakeLists.txt|  EFF|  EEPA # project eepa
 cmake/CMakeLists.txt|foreach(PKG_WITH_INCL |if(PKG_EEPA) # project eepa
 cmake/CMakeLists.txt|foreach(PKG_WITH_INCL |  include(Packages/EEPA) # project eepa
 cmake/CMakeLists.txt|foreach(PKG_WITH_INCL |endif() # project eepa
-doc/src/Commands_pair.rst|   * :doc:`gran/hertz/history|   * :doc:`gran/eepa (o) <pair_gran_eepa>`
-doc/src/Commands_fix.rst|   * :doc:`wall/gran/region|   * :doc:`wall/gran/eepa <fix_wall_gran_eepa>`
+doc/src/Commands_pair.rst|   * :doc:`gran/hertz/history|   * :doc:`gran/eepa (ko) <pair_gran_eepa>`
+doc/src/Commands_fix.rst|   * :doc:`wall/gran/region|   * :doc:`wall/gran/eepa (k) <fix_wall_gran_eepa>`
 doc/src/Commands_compute.rst|   * :doc:`group/group|   * :doc:`gran/eepa/contacts <compute_gran_eepa_contacts>`
 doc/src/Commands_compute.rst|   * :doc:`group/group|   * :doc:`gran/eepa/dt <compute_gran_eepa_dt>`
 doc/src/Commands_compute.rst|   * :doc:`group/group|   * :doc:`gran/eepa/energy <compute_gran_eepa_energy>`
@@ -52,7 +52,7 @@ paths_below() { (cd "$1" && find . ! -type d | sed 's|^\./||' | sort); }
 installed() { sed -n "s/^$1 [0-9]* [0-9]* //p" $stage/installed | sort; }
 
 require_lammps() {
-    local file version date
+    local file version # and date, for put_files()
     for file in cmake/CMakeLists.txt src/version.h src/fix_neigh_history.h; do
         [ -f "$file" ] || die "$tree is no LAMMPS source tree: it has no $file"
     done
@@ -84,6 +84,15 @@ put_files() {
     done
     put src/EEPA "${styles[@]}" "$root"/lammps_pkg/in_tree/*.{h,cpp}
     put src/OPENMP "$root"/lammps_pkg/*_omp.{h,cpp} # where LAMMPS looks for styles with threads
+    # The classes of KOKKOS differ between versions. docs/kokkos.md says so, too.
+    if [ "$date" -eq 20250204 ] && [ -d src/KOKKOS ]; then
+        for file in "$root"/lammps_pkg/kokkos/*.{h,cpp}; do
+            case ${file##*/} in
+            pair_* | fix_*) put src/KOKKOS "$file" ;; # where LAMMPS looks for them
+            *) put lib/eepa/kokkos "$file" ;;
+            esac
+        done
+    fi
     put lib/eepa/eepa "$root"/kernel/eepa/*.h
     put lib/eepa/eepa_commands "$root"/commands/eepa_commands/*.{h,cpp}
     put lib/eepa/eepa_walls "$root"/walls/eepa_walls/*.{h,cpp}
@@ -171,7 +180,7 @@ apply() {
 }
 
 remove_empty_folders() {
-    rmdir src/EEPA lib/eepa/eepa lib/eepa/eepa_commands lib/eepa/eepa_walls lib/eepa doc/src/figures 2>/dev/null || true
+    rmdir src/EEPA lib/eepa/eepa lib/eepa/eepa_commands lib/eepa/eepa_walls lib/eepa/kokkos lib/eepa doc/src/figures 2>/dev/null || true
 }
 
 # After success there is nothing to undo: $stage/changes is gone.
@@ -189,6 +198,12 @@ roll_back() {
 }
 
 action=install
+case ${1:-} in
+-h | --help)
+    sed -n '3,9s/^# \{0,1\}//p' "$0"
+    exit 0
+    ;;
+esac
 if [ "${1:-}" = --remove ]; then
     action=remove
     shift

@@ -11,8 +11,8 @@
 #   hardening.sh mutation [OPTION...]  small faults in kernel and commands, see tests/mutation/mutate.py
 #   hardening.sh intree [LAMMPS]  install into a copy of this LAMMPS source, build it, run the tests against it, remove
 #
-# EEPA_LMP: the lmp to use (build/lmp). EEPA_HARDENING_DIR: working folder (build-hardening). CMake's own variables are
-# obeyed, such as CMAKE_CXX_COMPILER_LAUNCHER=ccache, CMAKE_GENERATOR=Ninja and CMAKE_BUILD_PARALLEL_LEVEL=2.
+# EEPA_LMP: the lmp to use (build/lmp). EEPA_HARDENING_DIR: working folder (build-hardening). EEPA_INTREE_ARGS: more
+# arguments for CMake in `intree`, such as "-D EEPA_KOKKOS=on". CMake's own variables are obeyed, such as CMAKE_CXX_COMPILER_LAUNCHER=ccache, CMAKE_GENERATOR=Ninja and CMAKE_BUILD_PARALLEL_LEVEL=2.
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -185,14 +185,15 @@ intree() {
         git -C "$tree" -c user.name=eepa -c user.email=eepa@localhost commit -qm "as it was"
     fi
     "$root/scripts/install_in_lammps.sh" "$tree"
+    # shellcheck disable=SC2086
     cmake -S "$root" -B "$work/intree/build" -D LAMMPS_SOURCE_DIR="$tree" -D EEPA_STYLES=in_lammps \
-        -D EEPA_CACHE_DIR="$work/intree/cache" -D CMAKE_CXX_FLAGS_RELEASE= >"$work/intree/configure.log" ||
+        -D EEPA_CACHE_DIR="$work/intree/cache" -D CMAKE_CXX_FLAGS_RELEASE= ${EEPA_INTREE_ARGS:-} >"$work/intree/configure.log" ||
         die "see $work/intree/configure.log"
     # without optimization, in two thirds of the time, because only tests are compiled here
     cmake --build "$work/intree/build" --target test_lammps >"$work/intree/build.log" || die "see $work/intree/build.log"
     status=0
     ctest --test-dir "$work/intree/build" --output-on-failure \
-        -R '^(lammps|python.(contact_cycle|granular|impacts|steady_contacts|wear))' >"$work/intree/test.log" 2>&1 || status=1
+        -R '^(lammps|python.(contact_cycle|granular|impacts|site|steady_contacts|wear))' >"$work/intree/test.log" 2>&1 || status=1
     "$root/scripts/install_in_lammps.sh" --remove "$tree"
     left=$(git -C "$tree" status --porcelain --ignored | wc -l)
     [ "$left" -eq 0 ] || status=1
@@ -214,7 +215,7 @@ mutation)
     mutation "$@"
     ;;
 *)
-    sed -n '3,16s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,17s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

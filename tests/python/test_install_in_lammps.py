@@ -111,6 +111,25 @@ class Install(InTree):
         self.assertLess(text.index("\nadd_library(lammps "), include)
         self.assertLess(include, text.index("# add sources of enabled packages"))
 
+    def test_has_styles_for_kokkos_in_the_version_that_they_are_for(self):
+        (self.tree / "src/KOKKOS").mkdir()
+        self.before = contents(self.tree)
+        self.install()
+        self.assertTrue((self.tree / "src/KOKKOS/pair_gran_eepa_kokkos.h").exists())
+        self.assertTrue((self.tree / "src/KOKKOS/fix_wall_gran_eepa_kokkos.cpp").exists())
+        ours = {path.name for path in (ROOT / "lammps_pkg/kokkos").glob("*.*") if path.suffix in (".h", ".cpp")}
+        theirs = {path.name for folder in ("src/KOKKOS", "lib/eepa/kokkos") for path in (self.tree / folder).iterdir()}
+        self.assertEqual(theirs, ours)
+        version = (self.tree / "src/version.h").read_text()
+        self.assertIn("4 Feb 2025", version)
+        (self.tree / "src/version.h").write_text(version.replace("4 Feb 2025", "4 Jul 2026"))
+        self.install()
+        self.assertEqual(list((self.tree / "src/KOKKOS").iterdir()), [])
+        self.assertFalse((self.tree / "lib/eepa/kokkos").exists())
+        (self.tree / "src/version.h").write_text(version)
+        self.install()
+        self.remove()
+
     def test_changes_nothing_the_second_time(self):
         self.install()
         times = {path: path.stat().st_mtime_ns for path in self.tree.rglob("*") if path.is_file()}
@@ -275,24 +294,34 @@ class Package(unittest.TestCase):
 
     def test_has_all_styles_in_headers_where_lammps_looks_for_them(self):
         styles = (ROOT / "lammps_pkg/eepa_styles.cpp").read_text()
-        # those for KOKKOS are not put into the tree yet
+        kokkos = "".join(re.findall(r"#ifdef EEPA_KOKKOS\n(.*?)#endif", styles, flags=re.S))
+        kokkos = re.findall(r'\{"(pair|fix)", "([^"]+)"', kokkos)
+        self.assertEqual(len(kokkos), 6)
         styles = re.sub(r"#ifdef EEPA_KOKKOS.*?#endif", "", styles, flags=re.S)
         listed = re.findall(r'\{"(pair|fix|compute)", "([^"]+)".*?maker<(?:\w+, )?(\w+)>', styles, re.S)
         self.assertGreater(len(listed), 5)
+        self.assertEqual(sorted(self.styles_of_headers("lammps_pkg")), sorted(listed))
+        found = self.styles_of_headers("lammps_pkg/kokkos", suffix="_kokkos")
+        self.assertEqual(sorted(style[:2] for style in found), sorted(kokkos))
+
+    def styles_of_headers(self, folder, suffix=""):
         found = []
-        for file in ROOT.glob("lammps_pkg/*.h"):
+        for file in (ROOT / folder).glob("*.h"):
             text = file.read_text()
             blocks = re.findall(r"#ifdef (\w+)_CLASS\n", text)
-            for category, name, class_ in re.findall(r"^(\w+)Style\(([^,]+),(\w+)\);", text, re.M):
+            for category, name, class_ in re.findall(r"^(\w+)Style\(([^,]+),([\w<>]+)\);", text, re.M):
                 self.assertEqual(blocks, [category.upper()], file.name)
+                # LAMMPS looks for <style of the processor>_kokkos.h
+                own = name.split("/kk")[0] if suffix else name
+                self.assertTrue(not suffix or file.name == f"{category.lower()}_{own.replace('/', '_')}{suffix}.h")
                 self.assertTrue(file.name.startswith(category.lower() + "_"), file.name)
                 found.append((category.lower(), name, class_))
             self.assertEqual(bool(blocks), "Style(" in text, file.name)
-        self.assertEqual(sorted(found), sorted(listed))
+        return found
 
     def test_is_compiled_with_the_options_of_the_projects_own_build(self):
         ours = set()
-        for name in ("CMakeLists.txt", "lammps_pkg/CMakeLists.txt"):
+        for name in ("CMakeLists.txt", "lammps_pkg/CMakeLists.txt", "lammps_pkg/kokkos/CMakeLists.txt"):
             text = re.sub(r"if\(EEPA_SANITIZE\).*?endif\(\)", "", (ROOT / name).read_text(), flags=re.S)
             ours |= set(re.findall(r"(?<![\w-])-f[a-z-]+(?:=off)?", re.sub("#.*", "", text)))
         ours -= {"-fmacro-prefix-map"}    # shortens paths in messages
@@ -302,7 +331,9 @@ class Package(unittest.TestCase):
     def test_has_no_header_of_a_name_that_lammps_has(self):
         theirs = {path.name for path in LAMMPS.glob("src/*.h")} | {path.name for path in LAMMPS.glob("src/*/*.h")}
         self.assertGreater(len(theirs), 100)
-        self.assertFalse(theirs & {path.name for path in ROOT.glob("lammps_pkg/*.h")})
+        ours = [path.name for folder in ("lammps_pkg", "lammps_pkg/kokkos") for path in (ROOT / folder).glob("*.h")]
+        self.assertFalse(theirs & set(ours))
+        self.assertEqual(len(ours), len(set(ours)))
 
 
 if __name__ == "__main__":
