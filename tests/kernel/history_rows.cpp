@@ -33,7 +33,7 @@ template <class Layout> class HistoryRows : public testing::Test {
 };
 using Layouts = testing::Types<HistoryLayout<false, false>, HistoryLayout<true, false>,
                                HistoryLayout<false, true>, HistoryLayout<true, true>>;
-TYPED_TEST_SUITE(HistoryRows, Layouts);
+TYPED_TEST_SUITE(HistoryRows, Layouts, );
 
 TYPED_TEST(HistoryRows, EveryKindOfRowGivesBackWhatItGot)
 {

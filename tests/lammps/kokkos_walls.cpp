@@ -427,16 +427,17 @@ TEST(KokkosWall, StaysWhereTheRestartFileHasIt)
 // LAMMPS reserves room by the largest number of partners, which of no particles is not the least integer.
 TEST(ParallelKokkosWallExchange, StartsWithoutParticles)
 {
-  for (const bool some : {false, true}) {
-    Variant simulation(true);
-    simulation("processors * 1 1");
-    simulation.open_box(5.0);
-    if (some) simulation.create({{Vec3(-3, 0, 0), Vec3(0, 0, 0)}});
-    simulation("pair_style gran/eepa linear largest 1.0\npair_coeff * * 1e4 2e4 5e3 -1 0.5\n"
-               "timestep 1e-4\nfix integrate all nve/sphere\n"
-               "fix floor all wall/gran/eepa linear coeff 1e4 2e4 5e3 0 0.5 wall zplane -4 NULL");
-    for (int k = 0; k < 4; k++) EXPECT_NO_THROW(simulation.run(2)) << k;
-  }
+  for (const KokkosComm comm : {KokkosComm::device, KokkosComm::host, KokkosComm::classic})
+    for (const bool some : {false, true}) {
+      Variant simulation(true, MPI_COMM_WORLD, comm);
+      simulation("processors * 1 1");
+      simulation.open_box(5.0, 1, "f f f", "off");
+      if (some) simulation.create({{Vec3(-3, 0, 0), Vec3(0, 0, 0)}});
+      simulation(
+          "pair_style gran/eepa linear largest 1.0\npair_coeff * * 1e4 2e4 5e3 -1 0.5 restitution "
+          "0.5\ntimestep 1e-4\nfix integrate all nve/sphere");
+      for (int k = 0; k < 4; k++) EXPECT_NO_THROW(simulation.run(0)) << k;
+    }
 }
 
 TEST(KokkosWall, StopsAsTheHost)

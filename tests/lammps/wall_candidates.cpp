@@ -25,8 +25,8 @@ constexpr const char *bounded = "neigh_modify every 1 delay 0 check yes";
 constexpr const char *others[] = {
     "neigh_modify every 200 delay 0 check yes", "neigh_modify every 1 delay 200 check yes",
     "neigh_modify every 1 delay 0 check yes once yes",
-    "neigh_modify every 1 delay 0 check yes\nvariable one equal 1\ngroup nobody empty\n"
-    "fix nothing nobody adapt 1000000 atom diameter v_one"};
+    ("neigh_modify every 1 delay 0 check yes\nvariable one equal 1\ngroup nobody empty\n"
+     "fix nothing nobody adapt 1000000 atom diameter v_one")};
 constexpr const char *looks_at_all = others[3];
 
 /// The box of Simulation::open_box(), for particles of which a fix may change the radii.
@@ -60,12 +60,17 @@ std::vector<Sphere> gas(double speed)
   const auto random = [&generator] {
     return static_cast<double>(generator()) / 2147483647.5 - 1.0;
   };
+  // compilers evaluate arguments in different orders
+  const auto random_vector = [&random] {
+    const double z = random(), y = random(), x = random();
+    return Vec3(x, y, z);
+  };
   std::vector<Sphere> spheres;
   for (int k = 0; k < 200; k++) {
     Sphere sphere;
-    sphere.x = Vec3(2.2 * random(), 2.2 * random(), 2.2 * random());
-    sphere.v = speed * Vec3(random(), random(), random());
-    sphere.omega = speed * Vec3(random(), random(), random());
+    sphere.x = 2.2 * random_vector();
+    sphere.v = speed * random_vector();
+    sphere.omega = speed * random_vector();
     sphere.radius = 0.2 + 0.1 * random();
     spheres.push_back(sphere);
   }
@@ -91,10 +96,7 @@ class GasBetweenWalls : public testing::TestWithParam<Gas> {
   const ScratchFile mesh_{".stl"};
   void SetUp() override { write_stl(mesh_.name(), box(2.9, 11)); }
 
-  std::string walls() const
-  {
-    return with(GetParam().walls, "MESH", mesh_.name());
-  }
+  std::string walls() const { return with(GetParam().walls, "MESH", mesh_.name()); }
 };
 
 TEST_P(GasBetweenWalls, IsThatOfAWallThatLooksAtAll)

@@ -16,7 +16,7 @@ using namespace eepa_test;
 
 namespace {
 
-constexpr int POSITION = 4, VELOCITY = 5, CONTACTS = 6, LOAD_WORK = 15, LOAD_DISSIPATED = 16;
+constexpr int POSITION = 4, VELOCITY = 5, LOAD_WORK = 15, LOAD_DISSIPATED = 16;
 constexpr const char *restarted_box =
     "comm_modify vel yes\nneighbor 0.1 bin\nneigh_modify every 1 delay 0 check yes\n"
     "thermo 1000000\n";

@@ -14,7 +14,7 @@ using namespace eepa_test;
 
 namespace {
 
-constexpr int POSITION = 4, CONTACTS = 6, TORQUE_X = 17, ANGLE = 20;
+constexpr int CONTACTS = 6;
 const std::string law =
     " all wall/gran/eepa linear coeff 1e4 2e4 5e3 -0.1 0.5 restitution 0.7 rolling sds 1e3 0.1 0.1 "
     "twisting marshall wall ";

@@ -14,8 +14,7 @@ using namespace eepa_test;
 
 namespace {
 
-constexpr int POSITION = 4, TORQUE_X = 17, TORQUE_Z = 19, ANGLE = 20, ANGULAR_VELOCITY = 21,
-              DISPLACEMENT_X = 22;
+constexpr int TORQUE_X = 17, ANGLE = 20, ANGULAR_VELOCITY = 21, DISPLACEMENT_X = 22;
 
 const std::string elastic = "fix w all wall/gran/eepa linear coeff 1e5 1e5 0 0 ";
 

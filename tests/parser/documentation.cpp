@@ -230,7 +230,7 @@ TEST_P(Documentation, HasWhatTheTableSays)
 }
 
 INSTANTIATE_TEST_SUITE_P(Blocks, Documentation,
-                         testing::Values(std::pair("laws", laws), std::pair("syntax", syntax),
-                                         std::pair("coefficients", table)));
+                         testing::Values(std::pair("laws", &laws), std::pair("syntax", &syntax),
+                                         std::pair("coefficients", &table)));
 
 }    // namespace
