@@ -139,6 +139,10 @@ def predict(table: pd.DataFrame, quantity: str, changes: Mapping[str, Tuple[floa
     spread_of_freedom = 0.0  # variances squared over their degrees of freedom
     for number, (fine, coarse) in changes.items():
         if math.isclose(fine, coarse, rel_tol=1e-9):
+            # no effect, but no study either, where none went so far
+            most = table.loc[table["number"] == number, "most"].max()
+            if fine > most * (1.0 + 1e-9):
+                outside.append(f"{NUMBERS[number]} of {fine:.3g}, the studies end at {most:.3g}")
             continue
         try:
             found = effect(table, quantity, number)

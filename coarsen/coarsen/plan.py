@@ -46,7 +46,9 @@ class Line:
 def numbers_of(powder: Powder, loading: Loading, diameter: float, scaled_gravity: bool) -> Dict[str, float]:
     """What errors depend on, at a diameter."""
     gravity = loading.gravity * (powder.diameter / diameter if scaled_gravity else 1.0)
-    weight = 1.0 / powder.bond_number(diameter, gravity) if gravity and powder.f0 else 0.0
+    weight = 0.0
+    if gravity:  # without attraction it outweighs all
+        weight = 1.0 / powder.bond_number(diameter, gravity) if powder.f0 else math.inf
     return {"narrowness": diameter / loading.width, "inertia": loading.inertial_number(diameter, powder.density),
             "overlap": powder.overlap(loading.high), "weight": weight}
 

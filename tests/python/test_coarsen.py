@@ -345,6 +345,10 @@ class Evidence(unittest.TestCase):
         self.assertIn("no evidence how q depends on delta/d, overlap over diameter",
                       evidence.predict(self.TABLE, "q", {"overlap": (0.01, 0.02)}).outside)
         self.assertEqual(evidence.predict(self.TABLE, "q", {"overlap": (0.02, 0.02)}).outside, ())
+        # nor may both be where no study was
+        self.assertIn("d/W, diameter over width of 0.2, the studies end at 0.15",
+                      evidence.predict(self.TABLE, "q", {"narrowness": (0.2, 0.2)}).outside)
+        self.assertEqual(evidence.predict(self.TABLE, "q", {"narrowness": (0.1, 0.1)}).outside, ())
         self.assertEqual(evidence.predict(self.TABLE, "q", {"inertia": (1e-5, 9e-4)}).outside, ())
         # up to 4e-3 the effect of inertia is in a slope over d/W
         self.assertEqual(len(evidence.predict(self.TABLE, "q", {"inertia": (1e-5, 3.9e-3)}).outside), 0)
