@@ -15,6 +15,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 manifest=lib/eepa/INSTALLED # what was installed: "file" or "lines", their cksum, the path
 stage=.eepa-install         # in the tree, so that files are put into place by renaming
 
+usage() { sed -n '3,9s/^# \{0,1\}//p' "$0"; }
 die() {
     echo "install_in_lammps.sh: $*" >&2
     exit 1
@@ -23,7 +24,7 @@ die() {
 # What is inserted into files of LAMMPS: path|how the line begins before which it comes|new line. Each new line
 # has "eepa" in it, which no other line of these files has.
 lines() {
-    cat <<'LINES'
+    { if has_kokkos; then cat; else sed 's/ (ko) / (o) /; s/ (k) / /'; fi; } <<'LINES'
 cmake/CMakeLists.txt|  EFF|  EEPA # project eepa
 cmake/CMakeLists.txt|foreach(PKG_WITH_INCL |if(PKG_EEPA) # project eepa
 cmake/CMakeLists.txt|foreach(PKG_WITH_INCL |  include(Packages/EEPA) # project eepa
@@ -52,7 +53,7 @@ paths_below() { (cd "$1" && find . ! -type d | sed 's|^\./||' | sort); }
 installed() { sed -n "s/^$1 [0-9]* [0-9]* //p" $stage/installed | sort; }
 
 require_lammps() {
-    local file version # and date, for put_files()
+    local file version # and date, for has_kokkos()
     for file in cmake/CMakeLists.txt src/version.h src/fix_neigh_history.h; do
         [ -f "$file" ] || die "$tree is no LAMMPS source tree: it has no $file"
     done
@@ -63,6 +64,9 @@ require_lammps() {
     [ "$date" -ge 20250204 ] ||
         die "LAMMPS $version in $tree is too old: 4 Feb 2025 is the oldest that will do"
 }
+
+# Whether the tree gets the styles for KOKKOS, whose classes differ between versions. docs/kokkos.md says so, too.
+has_kokkos() { [ "$date" -eq 20250204 ] && [ -d src/KOKKOS ]; }
 
 # Writes all files as they shall be to $stage/new, and their manifest.
 prepare() {
@@ -84,8 +88,7 @@ put_files() {
     done
     put src/EEPA "${styles[@]}" "$root"/lammps_pkg/in_tree/*.{h,cpp}
     put src/OPENMP "$root"/lammps_pkg/*_omp.{h,cpp} # where LAMMPS looks for styles with threads
-    # The classes of KOKKOS differ between versions. docs/kokkos.md says so, too.
-    if [ "$date" -eq 20250204 ] && [ -d src/KOKKOS ]; then
+    if has_kokkos; then
         for file in "$root"/lammps_pkg/kokkos/*.{h,cpp}; do
             case ${file##*/} in
             pair_* | fix_*) put src/KOKKOS "$file" ;; # where LAMMPS looks for them
@@ -200,7 +203,7 @@ roll_back() {
 action=install
 case ${1:-} in
 -h | --help)
-    sed -n '3,9s/^# \{0,1\}//p' "$0"
+    usage
     exit 0
     ;;
 esac
@@ -208,7 +211,7 @@ if [ "${1:-}" = --remove ]; then
     action=remove
     shift
 fi
-[ $# -eq 1 ] || { sed -n '3,9s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -eq 1 ] || { usage >&2; exit 2; }
 [ -d "$1" ] || die "$1 is no folder"
 tree=$(cd "$1" && pwd)
 cd "$tree"

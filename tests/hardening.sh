@@ -12,7 +12,8 @@
 #   hardening.sh intree [LAMMPS]  install into a copy of this LAMMPS source, build it, run the tests against it, remove
 #
 # EEPA_LMP: the lmp to use (build/lmp). EEPA_HARDENING_DIR: working folder (build-hardening). EEPA_INTREE_ARGS: more
-# arguments for CMake in `intree`, such as "-D EEPA_KOKKOS=on". CMake's own variables are obeyed, such as CMAKE_CXX_COMPILER_LAUNCHER=ccache, CMAKE_GENERATOR=Ninja and CMAKE_BUILD_PARALLEL_LEVEL=2.
+# arguments for CMake in `intree`, such as "-D EEPA_KOKKOS=on". CMake's own variables are obeyed, such as
+# CMAKE_CXX_COMPILER_LAUNCHER=ccache, CMAKE_GENERATOR=Ninja and CMAKE_BUILD_PARALLEL_LEVEL=2.
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)

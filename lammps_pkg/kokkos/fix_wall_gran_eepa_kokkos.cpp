@@ -338,7 +338,7 @@ template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::write_restar
 template <class DeviceType> void FixWallGranEepaKokkos<DeviceType>::restart(char *buf)
 {
   FixWallGranEepa::restart(buf);
-  if (surface) surface = make_wall_surface<DeviceType>(*shape);
+  if (surface && typed_shape.is_plane()) surface = make_wall_surface<DeviceType>(*shape);
 }
 
 template <class DeviceType>

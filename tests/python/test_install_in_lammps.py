@@ -113,8 +113,10 @@ class Install(InTree):
 
     def test_has_styles_for_kokkos_in_the_version_that_they_are_for(self):
         (self.tree / "src/KOKKOS").mkdir()
-        self.before = contents(self.tree)
+        self.add_documentation()
         self.install()
+        listed = self.tree / "doc/src/Commands_pair.rst"
+        self.assertIn(":doc:`gran/eepa (ko) <pair_gran_eepa>`", listed.read_text())
         self.assertTrue((self.tree / "src/KOKKOS/pair_gran_eepa_kokkos.h").exists())
         self.assertTrue((self.tree / "src/KOKKOS/fix_wall_gran_eepa_kokkos.cpp").exists())
         ours = {path.name for path in (ROOT / "lammps_pkg/kokkos").glob("*.*") if path.suffix in (".h", ".cpp")}
@@ -124,6 +126,7 @@ class Install(InTree):
         self.assertIn("4 Feb 2025", version)
         (self.tree / "src/version.h").write_text(version.replace("4 Feb 2025", "4 Jul 2026"))
         self.install()
+        self.assertIn(":doc:`gran/eepa (o) <pair_gran_eepa>`", listed.read_text())
         self.assertEqual(list((self.tree / "src/KOKKOS").iterdir()), [])
         self.assertFalse((self.tree / "lib/eepa/kokkos").exists())
         (self.tree / "src/version.h").write_text(version)
