@@ -52,7 +52,7 @@ def verdicts(results: pd.DataFrame, tolerance: Dict[str, float], real: Optional[
     for quantity, allowed in tolerance.items():
         table = results.pivot(index="seed", columns="d", values=quantity)
         finest = table.columns.min()
-        line = line_through(table) if real is not None and not np.isclose(real, finest) else None
+        line = line_through(table, paired) if real is not None and not np.isclose(real, finest) else None
         for diameter in [d for d in table if d > finest]:
             if line is not None and line.is_straight:
                 step = diameter - real
@@ -80,22 +80,32 @@ class Line:
     is_straight: bool
 
 
-def line_through(table: pd.DataFrame) -> Optional[Line]:
+def line_through(table: pd.DataFrame, paired: bool = False) -> Optional[Line]:
     """None with fewer than three diameters.
 
     :param table: a row a seed, a column a diameter
+    :param paired: each seed has a line of its own, and all of them one slope: what is peculiar to a seed is none of its
+        scatter. Seeds that lack a diameter are left out
     """
     if table.shape[1] < 3:
         return None
-    points = np.log(table).stack()
-    x = points.index.get_level_values("d").astype(float)
+    logs = np.log(table.dropna() if paired else table)
+    seeds = len(logs) if paired else 1    # lines
+    points = logs.sub(logs.mean(axis=1), axis=0).stack() if paired else logs.stack()
+    x = points.index.get_level_values("d").to_numpy(float)
+    if len(points) < seeds + 2:
+        return None
     fit = stats.linregress(x, points)
     rest = points - fit.intercept - fit.slope * x
+    freedom = len(points) - seeds - 1
+    error = float(np.sqrt((rest**2).sum() / freedom / ((x - x.mean())**2).sum()))
     groups = rest.groupby(level="d")
     between = (groups.size() * groups.mean()**2).sum() / (table.shape[1] - 2)
-    within = ((rest - groups.transform("mean"))**2).sum() / max(1, len(rest) - table.shape[1])
-    straight = stats.f.sf(between / within, table.shape[1] - 2, len(rest) - table.shape[1]) >= LEVEL
-    return Line(fit.slope, fit.stderr, len(points) - 2, fit.pvalue, bool(straight))
+    inner = freedom - (table.shape[1] - 2)
+    within = ((rest - groups.transform("mean"))**2).sum() / max(1, inner)
+    straight = stats.f.sf(between / within, table.shape[1] - 2, inner) >= LEVEL if inner > 0 else True
+    chance = 2.0 * stats.t.sf(abs(fit.slope) / error, freedom) if error > 0.0 else 0.0
+    return Line(fit.slope, error, freedom, float(chance), bool(straight))
 
 
 def overall(verdicts_: Iterable[str]) -> str:

@@ -15,8 +15,12 @@ from dataclasses import dataclass, fields, replace
 #: Part of 0.2 sqrt(m/k), the limit of compute gran/eepa/dt, that the in-files here take.
 STEP = 0.95 * 0.2
 #: Overlap over p d/k1, mean over the contacts of a dense packing under stress p: 0.43 at an overlap of 0.008, 0.31 at
-#: 0.06, as examples/scale_collapse/evidence.py prints; of a loose start that was pressed from 0.5 to 10 kPa, 0.8.
-OVERLAP_OF_STRESS = 0.43
+#: 0.06, as examples/scale_collapse/evidence.py prints; of a bed that grains made themselves, pressed from 0.5 to 10 kPa.
+OVERLAP_OF_STRESS, OVERLAP_OF_LOOSE = 0.43, 0.8
+
+#: Of grains, in SI units.
+PLAUSIBLE = {"diameter": (1.0e-7, 0.1), "reference": (1.0e-7, 0.1), "density": (50.0, 25000.0)}
+UNITS = {"diameter": "m", "reference": "m", "density": "kg/m^3"}
 
 
 @dataclass(frozen=True)
@@ -48,6 +52,11 @@ class Powder:
                                              value >= 0.0 if field.name == "kadh" else value > 0.0)
             if not good:
                 raise ValueError(f"{field.name} is {value:g}, allowed are numbers {allowed}")
+        # what is beyond is another unit
+        for name, (least, most) in PLAUSIBLE.items():
+            value = getattr(self, name)
+            if not least <= value <= most:
+                raise ValueError(f"{name} is {value:g} {UNITS[name]}, allowed are {least:g} to {most:g}")
         if self.k2 < self.k1:
             raise ValueError(f"k2 is {self.k2:g}, allowed is k1 = {self.k1:g} or more")
         if self.smallest > 1.0:
@@ -76,9 +85,12 @@ class Powder:
         """Constant attraction over weight."""
         return self.scale(diameter)**2 * -self.f0 / (self.mass(diameter) * gravity)
 
-    def overlap(self, stress: float) -> float:
-        """delta/d of the contacts under a stress, about; the same at every diameter."""
-        return OVERLAP_OF_STRESS * stress * self.reference / self.k1
+    def overlap(self, stress: float, loose: bool = False) -> float:
+        """delta/d of the contacts under a stress, about; the same at every diameter.
+
+        :param loose: in a bed that grains made themselves
+        """
+        return (OVERLAP_OF_LOOSE if loose else OVERLAP_OF_STRESS) * stress * self.reference / self.k1
 
 
 @dataclass(frozen=True)

@@ -89,10 +89,12 @@ def judge(difference: float, error: float, freedom: float, tolerance: float, see
 
 
 def _needed(difference: float, scatter: float, within: float, seeds: int) -> int:
-    """Seeds until the interval is clear of the tolerance, on the side that the difference is on."""
+    """Seeds with which the interval would be clear of the tolerance, on the side that the difference is on, with the
+    power asked for. Equivalence takes both tests to reject, so that both may fail."""
     counts = np.arange(max(2, seeds + 1), MOST_SEEDS)
-    quantiles = stats.t.ppf(1.0 - LEVEL, counts - 1) + stats.t.ppf(POWER, counts - 1)
-    enough = abs(within - difference) > scatter / np.sqrt(counts) * quantiles
+    error, quantile = scatter / np.sqrt(counts), stats.t.ppf(1.0 - LEVEL, counts - 1)
+    far = stats.t.cdf((within + difference) / error - quantile, counts - 1) if difference < within else 1.0
+    enough = stats.t.cdf(abs(within - difference) / error - quantile, counts - 1) + far - 1.0 >= POWER
     return int(counts[enough][0]) if enough.any() else MOST_SEEDS
 
 

@@ -56,5 +56,7 @@ def percentages(words: Sequence[str], place: str = "--want") -> Dict[str, float]
             value = math.nan
         if not sign or not name or not 0.0 < value < 1.0:
             raise ValueError(f"{place} {word}: allowed is NAME=PERCENT with more than 0 and less than 100")
+        if name in found:
+            raise ValueError(f"{place} {word}: {name} is there twice")
         found[name] = value
     return found

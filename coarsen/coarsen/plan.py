@@ -26,6 +26,10 @@ class Speed:
     particle_bytes: float = 1300.0
     program_bytes: float = 6.0e7
 
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.particle_steps) and self.particle_steps > 0.0):
+            raise ValueError(f"speed is {self.particle_steps:g} particle steps a second, allowed are numbers above 0")
+
 
 @dataclass(frozen=True)
 class Line:
@@ -49,8 +53,9 @@ def numbers_of(powder: Powder, loading: Loading, diameter: float, scaled_gravity
     weight = 0.0
     if gravity:  # without attraction it outweighs all
         weight = 1.0 / powder.bond_number(diameter, gravity) if powder.f0 else math.inf
+    bed = powder.density * loading.solid_fraction * gravity * loading.height / loading.low
     return {"narrowness": diameter / loading.width, "inertia": loading.inertial_number(diameter, powder.density),
-            "overlap": powder.overlap(loading.high), "weight": weight}
+            "overlap": powder.overlap(loading.high, loose=gravity > 0.0), "weight": weight, "bed": bed}
 
 
 def line(powder: Powder, loading: Loading, diameter: float, wanted: Dict[str, float], table: pd.DataFrame,

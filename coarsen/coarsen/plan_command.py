@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import math
 import subprocess
 import tempfile
 from pathlib import Path
-from typing import Any, Dict, List, Sequence
+from typing import Any, Dict, List, Mapping, Optional, Sequence
 
 import pandas as pd
 
@@ -16,6 +17,8 @@ from .options import percentages
 from .plan import Line, Speed, best, line, series
 from .results import PRELOAD, costs
 
+#: Quantities of specimens of in.confined and in.unconfined.
+SPECIMEN = ("strain", "porosity_before", "porosity", "coordination", "bulk_modulus", "lateral_ratio", "strength")
 INFILES = Path(__file__).resolve().parents[2] / "examples" / "scale_collapse"
 
 
@@ -26,7 +29,7 @@ def add(commands: Any) -> None:
         description="From a real powder and a test to a table of diameters: particles, time step, cost, "
                     "dimensionless numbers, predicted errors with 90% intervals, and what speaks against "
                     "each. SI units.",
-        epilog="Exit status: 0 with a diameter that may be used, 3 without, 1 for an error.")
+        epilog="Exit status: 0 with a diameter that may be used, 3 without, 1 for an error, 2 for a wrong option.")
     powder = parser.add_argument_group("powder")
     powder.add_argument("--diameter", type=float, required=True, metavar="M", help="of the real particles")
     powder.add_argument("--density", type=float, required=True, metavar="KG/M3", help="of their material")
@@ -68,28 +71,47 @@ def add(commands: Any) -> None:
     parser.set_defaults(work=run)
 
 
+def given(value: Optional[float], otherwise: float) -> float:
+    """An option's value, where it has one: 0 is one, and not allowed later."""
+    return otherwise if value is None else value
+
+
+def _check_include(arguments: argparse.Namespace, loading: Loading, wanted: Mapping[str, float]) -> None:
+    """:raise ValueError: where --write would write what is not in.confined's"""
+    if not arguments.write:
+        return
+    machine = sorted(set(wanted) - set(SPECIMEN))
+    for wrong, said in ((loading.length != loading.width, f"--length is {loading.length:g}: it is for specimens as long as wide, "
+                         f"{loading.width:g}"),
+                        (arguments.smallest != 1.0, f"--smallest is {arguments.smallest:g}: it is for equal particles"),
+                        (machine, f"--want has {', '.join(machine)}, of a machine: it is for in.confined, which gives "
+                         f"{', '.join(SPECIMEN)}")):
+        if wrong:
+            raise ValueError(f"--write: no include file with {said}")
+
+
 def run(arguments: argparse.Namespace) -> int:
-    powder = Powder(arguments.diameter, arguments.density, arguments.dref or arguments.diameter, arguments.k1,
+    powder = Powder(arguments.diameter, arguments.density, given(arguments.dref, arguments.diameter), arguments.k1,
                     2.0 * arguments.k1 if arguments.k2 is None else arguments.k2, arguments.kadh, arguments.f0,
                     arguments.smallest)
-    loading = Loading(arguments.width, arguments.length or arguments.width, arguments.height or arguments.width,
+    loading = Loading(arguments.width, given(arguments.length, arguments.width), given(arguments.height, arguments.width),
                       arguments.solid_fraction, *arguments.stress, arguments.rate, arguments.strain,
                       arguments.gravity)
     wanted = percentages(arguments.want)
     simulated = powder.softened(arguments.soften)
-    if arguments.write and loading.length != loading.width:
-        raise ValueError(f"--length is {loading.length:g}: the include file is for specimens as long as wide, "
-                         f"{loading.width:g}")
+    _check_include(arguments, loading, wanted)
     table = evidence.read()
     unknown = sorted(set(wanted) - set(table["quantity"]))
     if unknown:
         raise ValueError(f"--want {unknown[0]}: no evidence, there is some for "
                          f"{', '.join(sorted(table['quantity'].unique()))}")
-    sizes = arguments.diameters or series(powder, loading)
+    sizes = series(powder, loading) if arguments.diameters is None else arguments.diameters
+    if not all(map(math.isfinite, sizes)):
+        raise ValueError(f"--diameters {' '.join(f'{d:g}' for d in sizes)}: allowed are numbers")
     too_fine = [d for d in sizes if d < powder.diameter]
     if too_fine:
         raise ValueError(f"--diameters {too_fine[0]:g}: allowed are {powder.diameter:g} (the real one) or more")
-    speed = Speed(arguments.speed or measure_speed(workflow.find_lmp(arguments.lmp)))
+    speed = Speed(measure_speed(workflow.find_lmp(arguments.lmp)) if arguments.speed is None else arguments.speed)
     lines = [line(powder, loading, d, wanted, table, speed, not arguments.true_gravity,
                   None if arguments.calibrated is None else _errors_of_coefficients(arguments.calibrated),
                   simulated) for d in sizes]
@@ -133,7 +155,8 @@ def text(lines: Sequence[Line], speed: Speed) -> str:
     quantities = list(lines[0].predictions)
     head = f"{'d (mm)':>8} {'particles':>10} {'step (s)':>9} {'steps':>9} {'core h':>8} {'GB':>6} {'W/d':>6} " \
            f"{'I':>8} {'d/d':>6} {'Bo':>7}" + "".join(f"  {q[:20]:>20}" for q in quantities) + "  verdict"
-    rows: List[str] = [f"{speed.particle_steps:.3g} particle steps a second and core", "",
+    rows: List[str] = [f"{speed.particle_steps:.3g} particle steps a second and core; core h are those of the test; "
+                       "to make its specimen takes half as long, by rain 1.6 times as long", "",
                        head.replace("d/d", "δ/d")]
     for one in lines:
         weight = one.numbers["weight"]

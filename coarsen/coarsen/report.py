@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from pathlib import Path
-from typing import Any, Dict, List, Optional
+from typing import Any, Dict, List, Optional, Sequence
 
 import jinja2
 import pandas as pd
@@ -17,6 +17,8 @@ PANELS = {"strain": "strain at 90% of the last level", "porosity_before": "poros
           "lateral_ratio": "lateral stress ratio"}
 #: Of a colour-blind reader (Okabe and Ito).
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+#: Columns of results.costs.
+COSTS = ("particles", "seconds", "test_seconds", "steps", "test_steps")
 #: Variables by which specimens of a group are told apart when means are taken; seeds are not.
 _SEED = "seed"
 
@@ -29,7 +31,8 @@ def write(path: Path, title: str, runs: pd.DataFrame, curves: pd.DataFrame, fold
     """
     template = jinja2.Environment(autoescape=True, loader=jinja2.FileSystemLoader(
         Path(__file__).resolve().parent)).get_template("report.html.j2")
-    groups = [_group(str(name), some, curves[curves["run"].isin(some.index)], folder)
+    results = runs.attrs["results"]
+    groups = [_group(str(name), some, curves[curves["run"].isin(some.index)] if len(curves) else curves, folder, results)
               for name, some in runs.groupby("group", sort=False)]
     path.write_text(template.render(
         title=title, plotly_js=_safe(get_plotlyjs()), specimens=len(runs), groups=groups,
@@ -41,33 +44,35 @@ def _safe(text: str) -> Any:
     return jinja2.utils.markupsafe.Markup(text)
 
 
-def varied(runs: pd.DataFrame) -> List[str]:
+def varied(runs: pd.DataFrame, results: Sequence[str]) -> List[str]:
     """The variables in which a group's specimens differ, but for the seed and what was measured."""
-    inputs = runs.loc[:, :"strain"].columns.drop(["group", "strain"])
+    inputs = runs.columns.drop(["group", *COSTS, *results], errors="ignore")
     return [name for name in inputs if name != _SEED and runs[name].nunique() > 1] or ["d"]
 
 
-def means(runs: pd.DataFrame) -> pd.DataFrame:
+def means(runs: pd.DataFrame, results: Sequence[str]) -> pd.DataFrame:
     """Mean and standard error (`_error`) over the seeds of each kind of specimen of a group, and their
     number."""
-    quantities = [name for name in runs.loc[:, "strain":].select_dtypes("number") if runs[name].notna().any()]
-    grouped = runs.groupby(varied(runs), sort=True)[quantities]
+    quantities = [name for name in runs[[c for c in (*results, *COSTS) if c in runs]].select_dtypes("number")
+                  if runs[name].notna().any()]
+    grouped = runs.groupby(varied(runs, results), sort=True)[quantities]
     made = grouped.mean().join(grouped.sem(), rsuffix="_error")
     made.insert(0, "seeds", grouped.size())
     return made
 
 
-def _group(name: str, runs: pd.DataFrame, curves: pd.DataFrame, folder: Path) -> Dict[str, Any]:
-    names = varied(runs)
+def _group(name: str, runs: pd.DataFrame, curves: pd.DataFrame, folder: Path, results: Sequence[str]) -> Dict[str, Any]:
+    names = varied(runs, results)
     kinds = runs.groupby(_by(names), sort=True)
-    table = means(runs)
+    table = means(runs, results)
     figures = [_curve_figure(kinds, names, curves, quantity, label) for quantity, label in (
         ("strain", "axial strain of the bulk"), ("porosity", "porosity of the bulk"),
-        ("coordination", "coordination number"))]
+        ("coordination", "coordination number"))] if len(curves) else []
     strengths = {c: f"strength after {c.split('_')[1]} Pa" for c in table if c.startswith("strength_")
                  and not c.endswith("_error")}
-    figures += [_mean_figure(table, names, quantity, label)
-                for quantity, label in {**PANELS, **strengths}.items() if quantity in table]
+    # without curves they are no specimens of in.confined, and the in-file's own names are all that is known
+    panels = {**PANELS, **strengths} if len(curves) else {quantity: quantity for quantity in results}
+    figures += [_mean_figure(table, names, quantity, label) for quantity, label in panels.items() if quantity in table]
     shown = table.loc[:, [c for c in table if not c.endswith("_error")]]
     text = pd.DataFrame({c: [_with_error(v, table.get(f"{c}_error", pd.Series(dtype=float)).get(k))
                              for k, v in shown[c].items()] for c in shown}, index=shown.index)

@@ -33,8 +33,8 @@ def run(arguments: argparse.Namespace) -> int:
         if not path.exists():
             raise FileNotFoundError(f"there is no {path}")
     runs, curves = tidy(read_study(study), arguments.out, (arguments.infiles or study.parent).resolve())
-    if curves.empty:
-        raise ValueError(f"{arguments.out}: no run is a specimen of in.confined or in.oedometer, and only those have figures")
+    if not runs.attrs["results"]:
+        raise ValueError(f"{arguments.out}: no run is a specimen of in.confined or in.oedometer, or has lines `Result NAME NUMBER`")
     checked = arguments.out / "check.csv"
     path = arguments.to or arguments.out / "report.html"
     report.write(path, arguments.title or f"{study.stem}: {len(runs)} specimens", runs, curves, arguments.out,

@@ -48,12 +48,13 @@ def tidy(table: pd.DataFrame, out: Path, infiles: Optional[Path] = None) -> Tupl
     defaults included, and what was measured; and the curves of all specimens, in one table.
 
     Specimens (of in.confined and in.oedometer) are measured, with `strength_LEVEL` and more for each level that they
-    were crushed after; of other runs the Result lines are taken.
+    were crushed after; of other runs the Result lines are taken. The columns that were measured, costs apart, are in the
+    table's attrs["results"].
 
     :param infiles: folder of in-files, for runs that have none of their own
     """
     first = table[table["needs"].isna()] if "needs" in table else table
-    rows, curves = [], []
+    rows, curves, results = [], [], []
     for run, row in first[[_is_done(out, name) for name in first.index]].iterrows():
         given = {k: v for k, v in row.items() if k not in NOT_VARIABLES and not pd.isna(v)}
         infile = (out / run / "infiles" if (out / run / "infiles").is_dir() else infiles or out) / row["infile"]
@@ -66,10 +67,13 @@ def tidy(table: pd.DataFrame, out: Path, infiles: Optional[Path] = None) -> Tupl
         else:
             measured = {name: value for folder in [run, *after.index]
                         for name, value in read_results(out / folder).items()}
+        results += measured
         rows.append({"run": run, "group": row["group"], **_numbers(given), **measured, **costs(out / run)})
     if not rows:
         raise measure.BadRun(f"{out}: no run of the study is finished")
-    return (pd.DataFrame(rows).set_index("run"), pd.concat(curves, ignore_index=True) if curves else pd.DataFrame())
+    runs = pd.DataFrame(rows).set_index("run")
+    runs.attrs["results"] = list(dict.fromkeys(results))
+    return runs, pd.concat(curves, ignore_index=True) if curves else pd.DataFrame()
 
 
 def _is_specimen(folder: Path) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
-from typing import Dict, List
+from typing import Dict, List, Sequence
 
 import numpy as np
 import pandas as pd
@@ -18,25 +18,30 @@ sys.path.insert(0, str(HERE.parents[1] / "coarsen"))
 
 import evidence_figures  # noqa: E402  (beside this file)
 from coarsen import check, evidence  # noqa: E402
-from coarsen.results import tidy  # noqa: E402
+from coarsen.results import PRELOAD, tidy  # noqa: E402
 from coarsen.study import read_study  # noqa: E402
 
 QUANTITIES = ["strain", "porosity_before", "porosity", "coordination", "bulk_modulus", "lateral_ratio",
               "strength"]
+#: Strain between stresses (Pa) that a bed's weight plays no part in, for the loose starts.
+LATER, AFTER = "later strain", (2.5e3, 9.0e3)
 NAMES = {"strain": "strain", "porosity_before": "porosity before", "porosity": "porosity", "coordination": "Z",
          "bulk_modulus": "bulk modulus", "lateral_ratio": "lateral ratio", "strength": "strength"}
-#: Groups of evidence.yaml that are one study of one powder, and the numbers that they vary. Within `loose`
-#: the inertial number goes with d/W; it stays below a thousandth.
+#: Groups of evidence.yaml that are one study of one powder, and the numbers that they vary.
 STUDIES = {"dense": (["width"], ["narrowness"]),
            "dense, one box": (["ratio"], ["narrowness"]),
            "sizes": (["sizes"], ["narrowness"]),
-           "loose": (["loose", "loose_fine", "loose_true_weight", "loose_narrow"], ["narrowness", "weight"]),
            "rate": (["inertia"], ["inertia"]),
            "soft": (["overlap"], ["overlap"])}
+#: Those of loose starts. In them d/W goes with the weight of the bed, so that its effect is taken from the other studies;
+#: so does the inertial number, which is below two thousandths.
+LOOSE = ["loose", "loose_fine", "loose_true_weight"]
 #: Beyond it the effect of the inertial number is no longer in proportion to it, and grows fast (evidence.md).
 LINEAR_INERTIA = 2.0e-3
-#: At one rate in one machine the inertial number goes with d, and its effect is in the slope over d/W.
-INCLUDED = {"shear_cell": {"inertia": 3.8e-3}}
+#: At one rate in one machine the inertial number goes with d, and its effect is in the slope over d/W; likewise weight over
+#: attraction in a silo, of ../machines/in.powder up to 3 mm. Its bed is the same at every diameter.
+INCLUDED = {"shear_cell": {"inertia": 3.8e-3},
+            **{machine: {"weight": 0.771, "bed": np.inf} for machine in ("silo 16 mm", "silo 20 mm")}}
 #: Of results/strength.csv; the others are these with one coefficient a little changed.
 MATERIALS = ("base", "cohesionless", "plateau", "pull_off", "k1_10", "kadh_7.5", "tensile_200")
 #: Columns of results/strength.csv and what they are here.
@@ -57,6 +62,7 @@ def with_numbers(runs: pd.DataFrame) -> pd.DataFrame:
         narrowness=runs["d"] / runs["side"],
         inertia=runs["inertial_number"],
         weight=mass * gravity / (size**2 * -runs["f0"]),
+        bed=runs["density"] * (1.0 - runs["porosity_before"]) * gravity * runs["side"] / (PRELOAD * runs["ppack"]),
         strength=[row.get(column, np.nan) for column, (_, row) in zip(columns, runs.iterrows())])
 
 
@@ -97,7 +103,12 @@ def slopes(runs: pd.DataFrame) -> pd.DataFrame:
     for machine, means in machines(HERE.parent / "machines" / "coarse.csv").items():
         parts.append(evidence.slopes_of(means, machine, [c for c in means if f"{c}_error" in means],
                                         ["narrowness"], included=INCLUDED.get(machine, {})))
-    return pd.concat(parts, ignore_index=True)
+    dense = pd.concat(parts, ignore_index=True)
+    some = known[known["group"].isin(LOOSE)]
+    some = some.assign(bed=some.groupby(["group", "d"])["bed"].transform("mean"))  # packings of a kind have one number
+    of_width = {q: np.exp(evidence.effect(dense, q, "narrowness").slope * some["narrowness"]) for q in QUANTITIES}
+    loose = evidence.slopes_of(some.assign(**{q: some[q] / of_width[q] for q in QUANTITIES}), "loose", QUANTITIES, ["weight", "bed"])
+    return pd.concat([dense, loose], ignore_index=True)
 
 
 #: Rows of the tables of evidence.md: what it says, and group, variables of the coarse and of the fine specimens.
@@ -123,11 +134,13 @@ COMPARED = (
 
 def markdown(table: pd.DataFrame) -> str:
     """Rows of `compared` for evidence.md."""
-    lines = ["| | packings | W/d | I | δ/d | " + " | ".join(NAMES[q] for q in QUANTITIES) + " |",
-             "|---" * (5 + len(QUANTITIES)) + "|"]
+    shown = [q for q in QUANTITIES if q in table]
+    lines = ["| | packings | W/d | I | δ/d | " + " | ".join(NAMES[q] for q in shown) + " | later strain |",
+             "|---" * (6 + len(shown)) + "|"]
     for row in table.to_dict("records"):
+        later = row.get(LATER) if row["what"].startswith("loose") else None
         cells = [row["what"], row["packings"], f"{row['W/d']:.3g}", f"{row['I']:.1e}", f"{row['overlap']:.3f}",
-                 *("" if pd.isna(row.get(q)) else row[q] for q in QUANTITIES)]
+                 *("" if pd.isna(row.get(q)) else row[q] for q in shown), "" if pd.isna(later) else later]
         lines.append("| " + " | ".join(cells).replace("-", "−").replace("e−0", "e-") + " |")
     return "\n".join(lines)
 
@@ -149,14 +162,32 @@ def compared(known: pd.DataFrame) -> pd.DataFrame:
             continue
         row = {"what": what, "packings": f"{len(coarse)}, {len(fine)}", "W/d": 1.0 / coarse["narrowness"].mean(),
                "I": coarse["inertia"].mean(), "overlap": coarse["overlap"].mean()}
-        for quantity in QUANTITIES:
-            one, other = (np.log(some[quantity].dropna().to_numpy()) for some in (coarse, fine))
-            if len(one) and len(other):
-                squares = [x.var(ddof=1) / len(x) for x in (one, other) if len(x) > 1]
-                row[quantity] = (f"{100 * np.expm1(one.mean() - other.mean()):+.1f}"
-                                 + (f" ± {100 * np.sqrt(sum(squares)):.1f}" if squares else ""))
+        for quantity in [*QUANTITIES, LATER]:
+            sides = [some.loc[some[quantity].notna(), [quantity, "particles"]] for some in (coarse, fine)]
+            if all(map(len, sides)):
+                one, other = (np.log(side[quantity]) for side in sides)
+                row[quantity] = f"{100 * np.expm1(one.mean() - other.mean()):+.1f}{_error(sides, quantity)}"
         rows.append(row)
     return pd.DataFrame(rows)
+
+
+def _error(sides: Sequence[pd.DataFrame], quantity: str) -> str:
+    """Standard error of the difference of the means of logarithms. A packing that is alone has no scatter of its own, and
+    gets that of the others, over the root of how many times their particles it has."""
+    scatter = [np.log(side[quantity]).var(ddof=1) * side["particles"].mean() for side in sides]
+    known = [value for value in scatter if np.isfinite(value)]
+    if not known:
+        return ""
+    squares = [(value if np.isfinite(value) else known[0]) / side["particles"].mean() / len(side)
+               for value, side in zip(scatter, sides)]
+    return f" ± {100 * np.sqrt(sum(squares)):.1f}"
+
+
+def later_strain(curves: pd.DataFrame) -> pd.Series:
+    """Of each run, strain on loading between the stresses AFTER: far above what a bed weighs."""
+    load = curves[curves["branch"] == "load"]
+    points = load.groupby("run").apply(lambda c: pd.Series(np.interp(AFTER, c["stress"], c["strain"])))
+    return 1.0 - (1.0 - points[1]) / (1.0 - points[0])
 
 
 def resampling(runs: pd.DataFrame, seeds: int = 6, count: int = 200) -> pd.DataFrame:
@@ -180,10 +211,21 @@ def resampling(runs: pd.DataFrame, seeds: int = 6, count: int = 200) -> pd.DataF
     return pd.DataFrame(rows)
 
 
+def with_earlier(found: pd.DataFrame, path: Path, names: pd.Index, by: str = "run") -> pd.DataFrame:
+    """Adds the rows of a results file whose runs are still in the study, and not among those found.
+
+    :param names: of the study's runs, whose order the rows get
+    """
+    earlier = pd.read_csv(path, index_col=by)
+    kept = earlier[earlier.index.isin(names) & ~earlier.index.isin(found.index)]
+    both = pd.concat([kept, found]) if len(kept) else found
+    return both.loc[[name for name in names if name in both.index]].rename_axis(by)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=HERE.parents[1] / "build" / "evidence",
-                        help="folder of the runs")
+                        help="folder of the runs; those that are not there, and are in the results, stay")
     parser.add_argument("--study", type=Path, default=HERE / "evidence.yaml")
     parser.add_argument("--resample", action="store_true",
                         help="instead, how often `coarsen check` is right on the runs of resample.yaml")
@@ -193,14 +235,19 @@ def main() -> None:
         runs.to_csv(HERE / "results" / "resample_runs.csv", float_format="%.6g")
         print(resampling(runs).round(2).to_string(index=False))
         return
+    names = read_study(arguments.study).index
     runs, curves = tidy(read_study(arguments.study), arguments.out, HERE)
+    runs = with_earlier(runs, HERE / "results" / "evidence_runs.csv", names)
+    curves = with_earlier(curves.set_index("run"), HERE / "results" / "evidence_curves.csv.gz", runs.index).reset_index()
     runs.to_csv(HERE / "results" / "evidence_runs.csv", float_format="%.6g")
-    curves.to_csv(HERE / "results" / "evidence_curves.csv.gz", index=False, float_format="%.6g")
+    curves[["stress", "strain", "porosity", "coordination", "bulk_coordination", "run", "branch"]].to_csv(
+        HERE / "results" / "evidence_curves.csv.gz", index=False, float_format="%.6g")
     found = slopes(runs)
     soft = runs[runs["group"].isin(("overlap", "width"))]
     pressure = soft["level"].astype(str).str.split().str[-1].astype(float) * soft["dref"] / soft["k1"]
     print(f"overlap over p d/k1: {(soft['overlap'] / pressure).groupby(soft['k1']).mean().round(3).to_dict()}")
     known = with_numbers(runs)
+    known[LATER] = later_strain(curves)
     table = compared(known)
     table.to_csv(HERE / "results" / "evidence.csv", index=False, float_format="%.3g")
     page = HERE / "evidence.md"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-only
 """coarsen without LAMMPS: studies, statistics, measuring, predictions and plans."""
 import contextlib
+import dataclasses
 import io
 import math
 import re
@@ -124,15 +125,16 @@ class Equivalence(unittest.TestCase):
         self.assertGreater(said, 0.03 * 2000)
 
     def test_so_many_seeds_would_decide(self):
+        # in four of five cases, with differences in the middle, near the edge and beyond it
         random = np.random.default_rng(2)
-        coarse, fine = np.exp(0.05 * random.standard_normal((2, 4)))
-        needed = equivalence.compare(coarse, fine, 0.05, True).needed
-        apart = np.log(coarse / fine)
-        decided = sum(equivalence.compare(
-            np.exp(apart.mean() + apart.std(ddof=1) * random.standard_normal(needed)), np.ones(needed), 0.05,
-            True).verdict != equivalence.OPEN for _ in range(1000))
-        self.assertGreater(decided, 700)
-        self.assertLess(decided, 950)
+        for middle in (0.0, 0.02, 0.035, 0.08):
+            begun = middle + 0.06 * np.array([-1.0, 1.0, -1.0, 1.0])
+            needed = equivalence.compare(np.exp(begun), np.ones(4), 0.05, True).needed
+            self.assertGreater(needed, 4)
+            decided = sum(equivalence.compare(
+                np.exp(middle + begun.std(ddof=1) * random.standard_normal(needed)), np.ones(needed), 0.05,
+                True).verdict != equivalence.OPEN for _ in range(2000))
+            self.assertAlmostEqual(decided / 2000, 0.8, delta=0.04, msg=middle)
 
     def test_bad_numbers_are_named(self):
         for arguments, said in ((([1.0], [1.0], 0.05, True), "needed are 2"),
@@ -168,6 +170,19 @@ class Check(unittest.TestCase):
             found = check.verdicts(table, {"q": 0.05}, real=0.1)
             said += found["verdict"].iloc[-1] == equivalence.EQUIVALENT
         self.assertLess(said, 0.09 * 300)
+
+    def test_what_is_peculiar_to_a_seed_is_none_of_the_scatter_of_a_trend(self):
+        table = results(lambda d: math.exp(0.01 * d), scatter=1e-3)
+        table["q"] *= np.exp(0.3 * table["seed"])
+        paired, not_so = (check.verdicts(table, {"q": 0.05}, real=0.1, paired=p).set_index("d") for p in (True, False))
+        self.assertTrue(paired["trend"].all())
+        self.assertAlmostEqual(math.log1p(paired.loc[3.0, "difference"]), 0.029, delta=2e-3)
+        self.assertEqual(paired.loc[3.0, "verdict"], equivalence.EQUIVALENT)
+        self.assertEqual(not_so.loc[3.0, "verdict"], equivalence.OPEN)
+        # a seed that lacks a diameter has no line
+        some = table.drop(table.index[0])
+        self.assertAlmostEqual(check.verdicts(some, {"q": 0.05}, real=0.1).iloc[-1]["difference"],
+                               paired.loc[3.0, "difference"], delta=2e-3)
 
     def test_between_the_diameters_the_interval_is_the_right_way_round(self):
         row = check.verdicts(results(lambda d: 1.0), {"q": 0.04}, real=2.5).iloc[0]
@@ -354,6 +369,22 @@ class Evidence(unittest.TestCase):
         self.assertEqual(len(evidence.predict(self.TABLE, "q", {"inertia": (1e-5, 3.9e-3)}).outside), 0)
         self.assertEqual(len(evidence.predict(self.TABLE, "q", {"inertia": (1e-5, 5e-3)}).outside), 1)
 
+    def test_loose_specimens_lie_in_what_their_own_study_predicts(self):
+        runs = pd.read_csv(ROOT / "examples" / "scale_collapse" / "results" / "evidence_runs.csv")
+        table, inside = evidence.read(), []
+        powder = Powder(1e-3, 2000.0, 1e-3, 5e2, 1e3, 5e2, -2e-4)
+        loading = Loading(0.03, 0.03, 0.03, 0.5, 625.0, 10e3, 0.2, 0.2, 9.81)
+        for group, scaled in (("loose", True), ("loose_true_weight", False)):
+            for d, some in runs[runs["group"] == group].groupby("d"):
+                fine, coarse = (plan.numbers_of(powder, loading, x, scaled) for x in (1e-3, d))
+                for quantity in ("strain", "porosity_before", "porosity", "coordination", "bulk_modulus", "lateral_ratio"):
+                    found = evidence.predict(table, quantity, {n: (fine[n], coarse[n]) for n in fine if n != "inertia"})
+                    measured = np.log(some[quantity]).mean() - np.log(runs.loc[runs["group"] == "loose_fine", quantity]).mean()
+                    inside.append(found.low <= math.expm1(measured) <= found.high)
+                    self.assertEqual(found.outside, ())
+        self.assertEqual(len(inside), 5 * 6)
+        self.assertGreaterEqual(np.mean(inside), 0.9)
+
     def test_the_packages_table_is_whole(self):
         table = evidence.read()
         self.assertFalse(table.drop(columns="included").isna().any().any())
@@ -363,7 +394,7 @@ class Evidence(unittest.TestCase):
 
 class Plan(unittest.TestCase):
     powder = Powder(1e-3, 2000.0, 1e-3, 5e3, 1e4, 5e3, -1e-4)
-    loading = Loading(0.03, 0.03, 0.03, 0.6, 5e3, 1e5, 0.5, 0.2, 9.81)
+    loading = Loading(0.03, 0.03, 0.03, 0.6, 15e3, 1e5, 0.5, 0.2, 9.81)
 
     def test_time_step_is_that_of_the_in_files(self):
         # 0.95 times 0.2 sqrt(m/k2)
@@ -377,8 +408,18 @@ class Plan(unittest.TestCase):
         self.assertAlmostEqual(large["inertia"] / small["inertia"], 2.0)
         self.assertAlmostEqual(large["overlap"], small["overlap"])
         self.assertAlmostEqual(large["weight"], small["weight"])
-        self.assertAlmostEqual(plan.numbers_of(self.powder, self.loading, 2e-3, False)["weight"],
-                               2.0 * small["weight"])
+        true = plan.numbers_of(self.powder, self.loading, 2e-3, False)
+        self.assertAlmostEqual(true["weight"], 2.0 * small["weight"])
+        # what it does not keep with gravity over s: what the bed presses itself with
+        self.assertAlmostEqual(small["bed"], 2000.0 * 0.6 * 9.81 * 0.03 / 15e3)
+        self.assertAlmostEqual(large["bed"], 0.5 * small["bed"])
+        self.assertAlmostEqual(true["bed"], small["bed"])
+
+    def test_overlaps_of_a_loose_bed_are_deeper(self):
+        still = dataclasses.replace(self.loading, gravity=0.0)
+        loose, dense = (plan.numbers_of(self.powder, l, 1e-3, True)["overlap"] for l in (self.loading, still))
+        self.assertAlmostEqual(dense, 0.43 * 1e5 * 1e-3 / 5e3)
+        self.assertAlmostEqual(loose / dense, 0.8 / 0.43)
 
     def test_particles_and_steps(self):
         self.assertEqual(self.loading.particles(1e-3), round(0.6 * 27e-6 / (math.pi / 6 * 1e-9)))
@@ -495,15 +536,29 @@ class Report(unittest.TestCase):
         curves = [pd.DataFrame({"stress": [1.0, 2.0], "strain": [0.0, 0.01 * s], "porosity": [0.4, 0.39],
                                 "coordination": [5.0, 6.0], "run": f"g/d={d},seed={s}", "branch": "load"})
                   for d in (1.0, 2.0) for s in (1, 2, 3)]
-        return pd.DataFrame(rows).set_index("run"), pd.concat(curves)
+        runs = pd.DataFrame(rows).set_index("run")
+        runs.attrs["results"] = ["strain", "strength_96e3"]
+        return runs, pd.concat(curves)
 
     def test_means_are_over_the_seeds(self):
         runs, _ = self.runs()
-        self.assertEqual(report.varied(runs), ["d"])
-        means = report.means(runs)
+        self.assertEqual(report.varied(runs, runs.attrs["results"]), ["d"])
+        means = report.means(runs, runs.attrs["results"])
         self.assertEqual(list(means["seeds"]), [3, 3])
         self.assertAlmostEqual(means.loc[2.0, "strength_96e3"], 2.04e4)
         self.assertAlmostEqual(means.loc[2.0, "strength_96e3_error"], 200.0 / math.sqrt(3))
+
+    def test_results_of_other_in_files_have_their_own_names(self):
+        runs = pd.DataFrame([{"run": f"check/d={d},seed={s}", "group": "check", "d": d, "seed": float(s), "flow": 3.0 * d + 0.1 * s,
+                              "particles": 100, "seconds": 1.0} for d in (1.0, 2.0) for s in (1, 2)]).set_index("run")
+        runs.attrs["results"] = ["flow"]
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "report.html"
+            report.write(path, "own", runs, pd.DataFrame(), Path(folder))
+            text = path.read_text()
+        self.assertIn('"text":"flow"', text)
+        self.assertIn("6.15 ± 0.05", text)
+        self.assertNotIn("axial strain of the bulk", text)
 
     def test_is_one_file_with_everything(self):
         runs, curves = self.runs()
@@ -556,7 +611,16 @@ class Commands(unittest.TestCase):
                 ([*self.words, "--want", "porosity"], "--want porosity: allowed is NAME=PERCENT"),
                 ([*self.words, "--want", "porosity=200"], "allowed is NAME=PERCENT with more than 0"),
                 ([*self.words, "--want", "porosity=5", "--diameters", "1e-5"], "--diameters 1e-05: allowed are 5e-05"),
-                ([*self.words, "--want", "porosity=5", "--length", "1", "--write", "x"], "--length is 1: the include file"),
+                ([*self.words, "--want", "porosity=5", "--length", "1", "--write", "x"], "--length is 1: it is for specimens"),
+                ([*self.words, "--want", "porosity=5", "--smallest", "0.5", "--write", "x"], "--smallest is 0.5: it is for equal"),
+                ([*self.words, "--want", "flow=5", "--write", "x"], "--want has flow, of a machine"),
+                ([*self.words, "--want", "porosity=5", "porosity=6"], "porosity is there twice"),
+                ([*self.words, "--want", "porosity=5", "--diameters", "nan"], "--diameters nan: allowed are numbers"),
+                ([*self.words, "--want", "porosity=5", "--dref", "0"], "reference is 0"),
+                ([*self.words, "--want", "porosity=5", "--height", "0"], "height is 0"),
+                ([*self.words, "--want", "porosity=5", "--speed", "-1"], "speed is -1"),
+                ([*self.words, "--want", "porosity=5", "--diameter", "50"], "diameter is 50 m, allowed are 1e-07 to 0.1"),
+                ([*self.words, "--want", "porosity=5", "--density", "2.7"], "density is 2.7 kg/m^3, allowed are 50 to"),
                 ([*self.words, "--want", "porosity=5", "--soften", "0.5"], "stiffnesses are divided by 0.5, allowed is 1"),
                 (["check", "in.none", "--diameters", "1", "2", "--want", "a=1"], "there is no in.none"),
                 (["check", __file__, "--diameters", "1", "--want", "a=1"], "allowed are two or more, each once"),

@@ -138,6 +138,12 @@ class Runs(unittest.TestCase):
         self.assertEqual(len(lines), 5)
         self.assertIn("stress", lines[0].split(","))
         status, text = coarsen(self.folder, "report", "coarsen_run")
+        self.assertEqual(status, 0, text)
+        self.assertIn('"text":"stress"', (self.folder / "coarsen_run/report.html").read_text())
+        (self.folder / "in.silent").write_text(INFILE.replace("Result", "result"))
+        (self.folder / "study.yaml").write_text("groups: {one: {infile: in.silent, d: 1e-3, seed: 1}}\n")
+        status, text = coarsen(self.folder, "run", "study.yaml", "--lmp", LMP, "--out", "silent")
+        status, text = coarsen(self.folder, "report", "silent")
         self.assertEqual(status, 1, text)
         self.assertIn("no run is a specimen of in.confined", text)
 
