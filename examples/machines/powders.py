@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-only
-"""Three powders that no study used: what `coarsen plan` says of coarse particles, beside runs made for it.
+"""Four powders that no study used: what `coarsen plan` says of coarse particles, beside runs made for it.
 
-Limestone in a tester of 30 mm, lactose in the ring of the shear tester, iron ore fines in a silo, each with a
+Limestone and coal in a tester of 30 mm, lactose in the ring of the shear tester, iron ore fines in a silo, each with a
 finer and a coarser diameter; the real powders are finer still. Writes powders.csv: predicted difference with its
 90% interval, measured difference with its standard error, and whether the one has the other."""
 from __future__ import annotations
 
 import argparse
+import functools
 import sys
 from pathlib import Path
-from typing import Dict, List, Sequence
+from typing import Dict, List, Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -29,25 +30,29 @@ import discharge  # noqa: E402  (of the silo)
 import geometry  # noqa: E402
 
 #: Diameters (m) that are compared, of each case the finer first, and packings of each.
-SIZES = {"limestone": ((1.5e-3, 3), (3.0e-3, 4)), "lactose": ((2.0e-3, 2), (3.0e-3, 2)),
+SIZES = {"limestone": ((1.5e-3, 3), (3.0e-3, 4)), "coal": ((1.5e-3, 3), (3.0e-3, 6)), "lactose": ((2.0e-3, 2), (3.0e-3, 2)),
          "iron ore": ((1.5e-3, 2), (3.0e-3, 2))}
-#: Coefficients at 1 mm; the real diameters are 50 and 100 um and 1 mm.
+#: Coefficients at 1 mm; the real diameters are 50 um of limestone and coal, 100 um and 1 mm.
 LIMESTONE = {"k1": 3.0e3, "k2": 9.0e3, "kadh": 6.0e3, "f0": -3.0e-4, "mu": 0.4, "mur": 0.02, "e": 0.2, "density": 2700.0}
+COAL = {"k1": 8.0e2, "k2": 2.4e3, "kadh": 8.0e2, "f0": -2.0e-4, "mu": 0.35, "mur": 0.05, "e": 0.25, "density": 1400.0}
 LACTOSE = {"k1": 1.5e2, "kadh": 6.0e1, "f0": -6.0e-5, "mu": 0.4, "mur": 0.01}
 IRON_ORE = {"k1": 2.0e2, "k2": 4.0e2, "kadh": 5.0e1, "f0": -5.0e-5, "mu": 0.45, "mur": 0.01, "density": 4000.0}
 WIDTH, RING, ORIFICE = 30.0e-3, 16.0e-3, 18.0e-3
 
 
-def limestone(out: Path, lmp: Path, cores: int) -> pd.DataFrame:
-    """A row a specimen."""
-    common = {"infile": "in.confined", **{k: repr(v) for k, v in LIMESTONE.items()}, "level": [["16e3", "80e3"]],
-              "after": {"infile": "in.unconfined", "state": "level_80e3"}}
-    study = _study(out / "limestone", {f"d{k}": {**common, "d": repr(d), "seed": f"1..{seeds}"}
-                                       for k, (d, seeds) in enumerate(SIZES["limestone"])})
+def pressed(name: str, powder: Mapping[str, float], top: str, out: Path, lmp: Path, cores: int) -> pd.DataFrame:
+    """Confined and unconfined compression, a row a specimen.
+
+    :param top: the last level, Pa
+    """
+    common = {"infile": "in.confined", **{k: repr(v) for k, v in powder.items()}, "level": [["16e3", top]],
+              "after": {"infile": "in.unconfined", "state": f"level_{top}"}}
+    study = _study(out / name, {f"d{k}": {**common, "d": repr(d), "seed": f"1..{seeds}"}
+                                for k, (d, seeds) in enumerate(SIZES[name])})
     infiles = EXAMPLES / "scale_collapse"
     workflow.run_study(study, infiles, study.parent, lmp, cores)
     runs, _ = results.tidy(read_study(study), study.parent, infiles)
-    return runs.rename(columns={"strength_80e3": "strength"})
+    return runs.rename(columns={f"strength_{top}": "strength"})
 
 
 def lactose(out: Path, lmp: Path, cores: int) -> pd.DataFrame:
@@ -91,11 +96,16 @@ def _study(folder: Path, groups: Dict[str, dict]) -> Path:
     return path
 
 
+def _powder(diameter: float, at_1mm: Mapping[str, float]) -> Powder:
+    return Powder(diameter, at_1mm["density"], 1e-3, *(at_1mm[name] for name in ("k1", "k2", "kadh", "f0")))
+
+
 def compare(case: str, runs: pd.DataFrame, quantities: Sequence[str], powder: Powder, loading: Loading,
             table: pd.DataFrame) -> List[dict]:
     fine, coarse = (d for d, _ in SIZES[case])
-    changes = {name: (value, numbers_of(powder, loading, coarse, True)[name])
-               for name, value in numbers_of(powder, loading, fine, True).items()}
+    # with gravity all have the same
+    changes = {name: (value, numbers_of(powder, loading, coarse, False)[name])
+               for name, value in numbers_of(powder, loading, fine, False).items()}
     rows = []
     for quantity in quantities:
         predicted = evidence.predict(table, quantity, changes)
@@ -118,16 +128,18 @@ def main() -> None:
     arguments = parser.parse_args()
     out, table = arguments.out.resolve(), evidence.read()
     nothing = pd.DataFrame({"d": []})
+    tester = ["strain", "porosity", "coordination", "bulk_modulus", "lateral_ratio", "strength"]
     cases = {
-        "limestone": (limestone, ["strain", "porosity", "coordination", "bulk_modulus", "lateral_ratio", "strength"],
-                      Powder(50e-6, LIMESTONE["density"], 1e-3, *(LIMESTONE[k] for k in ("k1", "k2", "kadh", "f0"))),
+        "limestone": (functools.partial(pressed, "limestone", LIMESTONE, "80e3"), tester, _powder(50e-6, LIMESTONE),
                       Loading(WIDTH, WIDTH, WIDTH, 0.62, 5e3, 80e3, 0.5, 0.2, 0.0)),
+        "coal": (functools.partial(pressed, "coal", COAL, "40e3"), tester, _powder(50e-6, COAL),
+                 Loading(WIDTH, WIDTH, WIDTH, 0.62, 5e3, 40e3, 0.5, 0.2, 0.0)),
         "lactose": (lactose, ["shear_strength", "flow_function", "friction_angle", "steady_angle"],
-                    Powder(100e-6, 2000.0, 1e-3, LACTOSE["k1"], 2 * LACTOSE["k1"], LACTOSE["kadh"], LACTOSE["f0"]),
+                    _powder(100e-6, {"density": 2000.0, "k2": 2 * LACTOSE["k1"], **LACTOSE}),
                     Loading(RING, RING, RING, 0.55, 5e3, 5e3, 2.0, 1.2, 0.0)),
-        "iron ore": (iron_ore, ["flow"],
-                     Powder(1e-3, IRON_ORE["density"], 1e-3, *(IRON_ORE[k] for k in ("k1", "k2", "kadh", "f0"))),
-                     Loading(ORIFICE, ORIFICE, ORIFICE, 0.55, 300.0, 300.0, 1e-3, 1.0, 0.0))}
+        # its bed lies on the bottom with the same weight at every diameter
+        "iron ore": (iron_ore, ["flow"], _powder(1e-3, IRON_ORE),
+                     Loading(ORIFICE, ORIFICE, ORIFICE, 0.55, 300.0, 300.0, 1e-3, 1.0, 9.81))}
     rows: List[dict] = []
     for case, (run, quantities, powder, loading) in cases.items():
         if case not in arguments.only:
