@@ -21,7 +21,8 @@ CHUTE = Material(k1=2.0e5, mu=0.5, gamma_n=50.0, tangential_damping=False, mass=
 # Of examples/scale_collapse: spheres of 1 mm, e = 0.3.
 _MASS = 2000.0 * math.pi / 6.0 * 1.0e-9
 POWDER = Material(k1=5.0e3, mu=0.5, gamma_n=gamma_of_restitution(0.3, 5.0e3, _MASS),
-                  tangential_damping=True, mass=_MASS, k2=1.0e4, k_adh=5.0e3, f0=-1.0e-4)
+                  tangential_damping=True, mass=_MASS, k2=1.0e4, k_adh=5.0e3, f0=-1.0e-4,
+                  diameter=1.0e-3)
 
 
 @dataclass(frozen=True)
@@ -50,8 +51,8 @@ class Case:
         words = {"data": self.data, "style": file, "measure": HERE / "measure.lmp",
                  "warm": self.warm, "steps": self.steps,
                  "census": "yes" if style.is_eepa else "no"}
+        words.update(zip(("nx", "ny", "nz"), self.copies))
         if self.infile.name == "in.compression":
-            words.update(zip(("nx", "ny", "nz"), self.copies))
             words.update(rebuild=self.rebuild, types=self.types)
         return {name: str(word) for name, word in words.items()}
 
@@ -59,12 +60,15 @@ class Case:
         return replace(self, warm=warm, steps=steps)
 
 
-def chute(lammps_source: Path) -> Case:
-    """:raise FileNotFoundError: where LAMMPS's source has no bench folder"""
+def chute(lammps_source: Path, copies: Tuple[int, int] = (1, 1)) -> Case:
+    """32,000 particles, copied along and across the flow.
+
+    :raise FileNotFoundError: where LAMMPS's source has no bench folder
+    """
     data = lammps_source / "bench" / "data.chute"
     if not data.is_file():
         raise FileNotFoundError(f"no {data}: the chute needs the folder bench of LAMMPS's source")
-    return Case("chute 32000", HERE / "in.chute", CHUTE, data, steps=2000)
+    return Case(f"chute {32000 * math.prod(copies)}", HERE / "in.chute", CHUTE, data, (*copies, 1), steps=2000)
 
 
 def compression(program: Program, work: Path, cell: int,

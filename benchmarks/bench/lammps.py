@@ -9,6 +9,7 @@ import subprocess
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Dict, List, Mapping, Sequence
 
 from coarsen.workflow import mpi_settings
@@ -102,11 +103,13 @@ def bind(process: subprocess.Popen, cores: int = 1) -> None:
 
 
 def run_lammps(program: Program, infile: Path, folder: Path, variables: Mapping[str, str],
-               parallel: Parallel = Parallel(), prefix: Sequence[str] = (), more: Sequence[str] = ()) -> Finished:
+               parallel: Parallel = Parallel(), prefix: Sequence[str] = (), more: Sequence[str] = (),
+               settings: Mapping[str, str] = MappingProxyType({})) -> Finished:
     """Runs an in-file in a folder that must exist.
 
     :param prefix: what LAMMPS is started under, such as valgrind
     :param more: of LAMMPS's command line
+    :param settings: further variables of its environment
     :raise RunFailed: with the end of what LAMMPS said
     """
     words = command(program, infile, folder, variables, parallel, prefix, more)
@@ -115,7 +118,7 @@ def run_lammps(program: Program, infile: Path, folder: Path, variables: Mapping[
         # a session of its own, so that all of it can be ended at once
         process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=screen,
                                    stderr=subprocess.STDOUT, cwd=folder,
-                                   env=environment(program, parallel), start_new_session=True)
+                                   env={**environment(program, parallel), **settings}, start_new_session=True)
         if program.bind and parallel.ranks == 1:    # mpirun binds by itself
             bind(process, parallel.cores)
         try:

@@ -119,3 +119,24 @@ def powers(x: Sequence[float], series: Mapping[str, Sequence[float]], fits: Mapp
     axis.grid(alpha=0.25, linewidth=0.5)
     axis.legend(fontsize=8, frameon=False)
     save(figure, path)
+
+
+def particle_steps(series: Mapping[Tuple[str, str], Sequence[Tuple[int, float]]], path: Path) -> None:
+    """Particle steps a second over particles, a panel for each case.
+
+    :param series: by case and law
+    """
+    cases = list(dict.fromkeys(case for case, _ in series))
+    figure, axes = plt.subplots(1, len(cases), squeeze=False, sharey=True, constrained_layout=True,
+                                figsize=(1.0 + 3.6 * len(cases), 4.0))
+    for axis, case in zip(axes[0], cases):
+        for k, (law, points) in enumerate((law, p) for (c, law), p in series.items() if c == case):
+            axis.plot(*zip(*points), marker="o", markersize=4, linewidth=1.2, color=COLOURS[k % len(COLOURS)], label=law)
+        axis.set_xscale("log")
+        axis.set_yscale("log")
+        axis.set_title(case, fontsize=10)
+        axis.set_xlabel("particles")
+        axis.grid(alpha=0.25, linewidth=0.5)
+    axes[0][0].set_ylabel("particle steps a second")
+    axes[0][0].legend(fontsize=8, frameon=False)
+    save(figure, path)

@@ -28,6 +28,7 @@ class Material:
     mu_r: float = 0.001
     #: restitution with which gran/hooke/history has as many contacts as with hysteresis; 0: none
     damped_restitution: float = 0.0
+    diameter: float = 1.0
 
     @property
     def restitution(self) -> float:
@@ -82,7 +83,8 @@ def make_styles(m: Material) -> Dict[str, Style]:
     no cost of the pair style; `damped` is one of LAMMPS's styles slowed down by its dashpot instead,
     where the material gives the damping. Variants of gran/eepa: elastic has the physics of
     gran/hooke/history; full adds hysteresis, adhesion, pull-off force and constant rolling friction;
-    plateau is full with the other law; sds is full with a rolling spring instead."""
+    plateau is full with the other law; sds is full with a rolling spring instead; luding has that law, with a twisting
+    spring, too; exponent has forces of overlap^1.5, which are those of full at an overlap of 1% of the diameter."""
     damped = 1 if m.tangential_damping else 0
     full = (f"{m.k1:.9g} {m.k2:.9g} {m.k_adh:.9g} {m.f0:.9g} {m.mu:.9g} "
             f"restitution {m.restitution:.6f}")
@@ -91,6 +93,9 @@ def make_styles(m: Material) -> Dict[str, Style]:
     # rolling spring and dashpot in proportion to the sliding ones
     sds = (f"{full} rolling sds {0.2 * m.k1:.9g} {0.02 * math.sqrt(m.k1 * m.mass):.9g} "
            f"{10.0 * m.mu_r:.9g}")
+    root = math.sqrt(0.01 * m.diameter)
+    curved = (f"{m.k1 / root:.9g} {m.k2 / root:.9g} {m.k_adh / root:.9g} {m.f0:.9g} {m.mu:.9g} kt {2.0 / 7.0 * m.k1:.9g} "
+              f"restitution {m.restitution:.6f} rolling constant {m.mu_r:.9g}")
 
     def hooke(name: str, gamma_n: float) -> Style:
         return Style(name, f"gran/hooke/history {m.k1:.9g} NULL {gamma_n:.9g} NULL {m.mu:.9g} "
@@ -109,6 +114,8 @@ def make_styles(m: Material) -> Dict[str, Style]:
         Style("gran/eepa full", "gran/eepa linear", constant, "PairGranEepa"),
         Style("gran/eepa plateau", "gran/eepa plateau", constant, "PairGranEepa"),
         Style("gran/eepa sds", "gran/eepa linear", sds, "PairGranEepa"),
+        Style("gran/eepa luding", "gran/eepa luding", f"{sds} depth 0.1 twisting marshall", "PairGranEepa"),
+        Style("gran/eepa exponent", "gran/eepa linear exponent 1.5", curved, "PairGranEepa"),
     ]
     if m.damped_restitution:
         gamma_n = gamma_of_restitution(m.damped_restitution, m.k1, m.mass)

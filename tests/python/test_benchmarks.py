@@ -6,8 +6,6 @@ from __future__ import annotations
 import csv
 import math
 import os
-import re
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -17,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "examples" / "scale_collapse"), str(ROOT / "examples"),
                 str(ROOT / "coarsen")]
 
-from bench import (cases, cost, gpu, instructions, kernel, lammps, lammps_log, liggghts,  # noqa: E402
+from bench import (cases, cost, instructions, kernel, lammps, lammps_log, liggghts,  # noqa: E402
                    many_particles, many_types, memory, output, report, scaling, statistics, styles,
                    walls)
 
@@ -183,25 +181,6 @@ class Styles(unittest.TestCase):
         self.assertEqual(threads[-5:], ["-sf", "omp", "-pk", "omp", "2"])
 
 
-class Gpu(unittest.TestCase):
-    def test_last_run_of_a_log_is_read(self):
-        runs = ("Loop time of 9 on 1 procs for 10 steps with 8 atoms\n"
-                "Loop time of 0.5 on 2 procs for 250 steps with 1000 atoms\n")
-        self.assertEqual(gpu.read_loop(runs), (2.0, 1000))
-        with self.assertRaisesRegex(ValueError, "Loop time"):
-            gpu.read_loop("ERROR\n")
-
-    def test_table_has_medians_of_ratios_of_the_same_round(self):
-        rows = [{"particles": 1000, "every": every, "round": k, "law": law, "ms_a_step": ms}
-                for every, k, hooke, eepa in ((0, 0, 1.0, 0.5), (0, 1, 2.0, 1.8), (0, 2, 4.0, 2.4), (20, 0, 2.0, 3.0))
-                for law, ms in (("hooke", hooke), ("sds", eepa))]
-        self.assertEqual(gpu.table(rows).splitlines()[2:], [
-            "| 1,000 | no list | 2 | 1.8 (0.60) |", "| 1,000 | 20 | 2 | 3 (1.50) |"])
-
-    def test_all_sizes_take_about_as_long(self):
-        self.assertEqual([size.steps for size in gpu.lattices([46, 159, 400], [0])], [2000, 497, 200])
-
-
 class Kernel(unittest.TestCase):
     def test_driver_and_bytes(self):
         self.assertEqual(kernel.driver_operations("none")["roots"], 1.0)
@@ -313,19 +292,6 @@ class InLammps(unittest.TestCase):
         # the same particles, as far as 30 steps keep rounding small
         self.assertAlmostEqual(mesh["wall_contacts"], planes["wall_contacts"], delta=2)
         self.assertIn("216 spheres", walls.table(rows))
-
-    def test_styles_for_kokkos_in_turn(self):
-        help_text = subprocess.run([LMP, "-h"], capture_output=True, text=True, check=True).stdout
-        kokkos = ["-k", "on", "t", "1", "-sf", "kk", "-pk", "kokkos", "newton", "off", "neigh", "half"]
-        installed = re.search(r"Installed packages:\s+((?:[A-Z0-9-]+\s+)+)", help_text)[1].split()
-        if "KOKKOS" not in installed:
-            kokkos = []    # the in-file and the reading are the same
-        rows = gpu.measure(self.program, kokkos, gpu.lattices([5], [0, 10], 30), gpu.LAWS, 2, self.work)
-        self.assertEqual([row["law"] for row in rows], [gpu.REFERENCE, *gpu.LAWS] * 4)
-        for row in rows:
-            self.assertEqual(row["particles"], 125)
-            self.assertGreater(row["ms_a_step"], 0.0)
-        self.assertEqual(len(gpu.table(rows).splitlines()), 4)
 
     def test_known_and_unknown_pair_styles(self):
         self.assertTrue(lammps.has_pair_style(self.program, self.work, "gran/eepa"))

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""What NVIDIA's nvidia-smi says of a card while a program runs on it: its power and the memory in use."""
+from __future__ import annotations
+
+import os
+import re
+import statistics
+import subprocess
+from datetime import datetime
+from types import TracebackType
+from typing import List, Optional, Tuple, Type
+
+_COMMAND = "nvidia-smi"
+#: A program's line with the time at which its timed part has ended: seconds of the epoch.
+_CLOCK = re.compile(r"^Clock (\d+\.\d+)", re.MULTILINE)
+
+Sample = Tuple[float, float, float]    #: time (s of the epoch), power (W), memory in use (MiB)
+
+
+def names() -> str:
+    """Names and drivers of all cards; "" where there are none."""
+    try:
+        said = subprocess.run([_COMMAND, "--query-gpu=name,driver_version", "--format=csv,noheader"],
+                              capture_output=True, text=True, check=True, timeout=60).stdout
+    except (OSError, subprocess.SubprocessError):
+        return ""
+    return "; ".join(line.strip() for line in said.splitlines() if line.strip())
+
+
+def read_samples(text: str) -> List[Sample]:
+    """The lines of `nvidia-smi --query-gpu=timestamp,power.draw,memory.used --format=csv,noheader,nounits`; those
+    without numbers, as of a card that does not tell its power, are left out."""
+    samples = []
+    for line in text.splitlines():
+        words = [word.strip() for word in line.split(",")]
+        try:
+            when = datetime.strptime(words[0], "%Y/%m/%d %H:%M:%S.%f").timestamp()
+            samples.append((when, float(words[1]), float(words[2])))
+        except (ValueError, IndexError):
+            continue    # also the line that was being written at the end
+    return samples
+
+
+def energy_and_memory(samples: List[Sample], screen: str, loop: float) -> Tuple[Optional[float], Optional[float]]:
+    """Energy of the timed part (J) and the memory in use at its end beyond that before the program (bytes).
+
+    :param screen: what the program wrote, with its last line `Clock`
+    :param loop: length of the timed part, s
+    """
+    clocks = _CLOCK.findall(screen)
+    if not clocks or not samples:
+        return None, None
+    end = float(clocks[-1])
+    timed = [sample for sample in samples if end - loop <= sample[0] <= end]
+    if not timed:
+        return None, None
+    memory = 2.0**20 * (max(m for _, _, m in timed) - samples[0][2])
+    return statistics.fmean(power for _, power, _ in timed) * loop, memory
+
+
+class Watch:
+    """Samples a card, every 100 ms, from `with` to its end."""
+
+    def __init__(self) -> None:
+        self.samples: List[Sample] = []
+        self._process: Optional[subprocess.Popen] = None
+
+    def __enter__(self) -> "Watch":
+        # the card that a program gets that asks for one
+        card = os.environ.get("CUDA_VISIBLE_DEVICES", "0").split(",")[0]
+        try:
+            self._process = subprocess.Popen(
+                [_COMMAND, "-i", card, "--query-gpu=timestamp,power.draw,memory.used", "--format=csv,noheader,nounits",
+                 "-lms", "100"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        except OSError:
+            return self    # without nvidia-smi there is nothing to read
+        first = self._process.stdout.readline() if self._process.stdout else ""
+        self.samples = read_samples(first)    # before the program has begun
+        return self
+
+    def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
+                 trace: Optional[TracebackType]) -> None:
+        if self._process is None:
+            return
+        self._process.terminate()
+        rest, _ = self._process.communicate()
+        self.samples += read_samples(rest)
