@@ -23,8 +23,8 @@ class Variant : public Simulation {
  private:
   static std::vector<std::string> with_kokkos(KokkosComm comm)
   {
-    const char *threads = std::getenv("EEPA_TEST_KOKKOS");
-    return kokkos_with(threads ? threads : "1", comm);
+    const char *where = std::getenv("EEPA_TEST_KOKKOS");
+    return kokkos_with(where ? where : "t 1", comm);
   }
 };
 

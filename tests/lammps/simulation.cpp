@@ -66,15 +66,20 @@ double Particle::kinetic_energy() const
 
 std::vector<std::string> kokkos_of_environment()
 {
-  const char *threads = std::getenv("EEPA_TEST_KOKKOS");
-  return threads ? kokkos_with(threads) : std::vector<std::string>();
+  const char *where = std::getenv("EEPA_TEST_KOKKOS");
+  return where ? kokkos_with(where) : std::vector<std::string>();
 }
 
-std::vector<std::string> kokkos_with(const std::string &threads, KokkosComm comm)
+std::vector<std::string> kokkos_with(const std::string &where, KokkosComm comm)
 {
-  const char *where = comm == KokkosComm::device ? "device" : comm == KokkosComm::host ? "host" : "no";
-  return {"-kokkos", "on",   "t",    threads, "-suffix", "kk",  "-package", "kokkos",
-          "neigh",   "half", "comm", where,   "sort",    where};
+  const char *loops = comm == KokkosComm::device ? "device" : comm == KokkosComm::host ? "host" : "no";
+  std::vector<std::string> words = {"-kokkos", "on"};
+  std::istringstream stream(where);
+  for (std::string word; stream >> word;) words.push_back(word);
+  for (const char *word :
+       {"-suffix", "kk", "-package", "kokkos", "neigh", "half", "comm", loops, "sort", loops})
+    words.push_back(word);
+  return words;
 }
 
 Simulation::Simulation(MPI_Comm comm, const std::string &log,

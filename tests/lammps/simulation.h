@@ -64,9 +64,10 @@ struct PairContact {
 /// the functions of a LAMMPS without KOKKOS.
 enum class KokkosComm { device, host, classic };
 
-/// LAMMPS's command line for KOKKOS. A process has one number of threads, that of its first LAMMPS.
-std::vector<std::string> kokkos_with(const std::string &threads, KokkosComm = KokkosComm::device);
-/// The same with the threads that the environment's EEPA_TEST_KOKKOS asks for; nothing without it.
+/// LAMMPS's command line for KOKKOS.
+/// \param where what follows `-kokkos on`: "t 2" for two threads, "g 1" for a GPU. A process has that of its first LAMMPS.
+std::vector<std::string> kokkos_with(const std::string &where, KokkosComm = KokkosComm::device);
+/// The same with what the environment's EEPA_TEST_KOKKOS says; nothing without it.
 std::vector<std::string> kokkos_of_environment();
 
 /// A LAMMPS with this package's styles. Everything is collective over `comm`, and every answer
