@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Measures gran/eepa/kk beside LAMMPS's gran/hooke/history/kk. Arguments go to run_gpu.py: --lmp, --kokkos, --quick.
+# Measures gran/eepa/kk beside LAMMPS's gran/hooke/history/kk. Arguments go to run_gpu.py: --help tells them.
 # Nothing is built: LAMMPS must have been built with KOKKOS as docs/kokkos.md says.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-python=$(sh "$root/scripts/find_python.sh")
-exec "$python" "$root/benchmarks/run_gpu.py" "$@"
+exec "${PYTHON:-python3}" "$root/benchmarks/run_gpu.py" "$@"

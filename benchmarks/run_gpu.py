@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-only
-"""Measures gran/eepa/kk beside LAMMPS's gran/hooke/history/kk: ms a step, time of pair kernels, memory and energy of a card."""
+"""Measures gran/eepa/kk beside LAMMPS's gran/hooke/history/kk: ms a step, time of pair kernels, contacts, memory and energy of a card.
+Needs Python alone, and Matplotlib for the figure, which --draw makes elsewhere."""
 from __future__ import annotations
 
 import argparse
+import csv
+import datetime
 import os
 import sys
 from pathlib import Path
-from typing import List, Optional, Sequence
+from typing import Dict, List, Optional, Sequence
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "examples" / "scale_collapse"), str(HERE.parent / "coarsen")]
 
-from bench import card, gpu, machine, plots  # noqa: E402
-from bench.lammps import Program, RunFailed  # noqa: E402
+from bench import card, gpu, machine  # noqa: E402
+from bench.lammps import LOG, Program, RunFailed  # noqa: E402
 from bench.output import write_csv  # noqa: E402
 
 
@@ -28,51 +31,82 @@ def main() -> None:
     parser.add_argument("--every", type=int, nargs="+", default=[0, 20], metavar="STEPS",
                         help="of the lattice, steps between two neighbour lists; 0: none is made")
     parser.add_argument("--laws", nargs="+", default=list(gpu.LAWS), choices=gpu.LAWS)
+    parser.add_argument("--steps", type=int, default=0, help="of each run (so many that it takes seconds on a card)")
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--lammps-source", type=Path, default=None, metavar="FOLDER",
-                        help="LAMMPS's source, for bench/data.chute (that of the build)")
+    parser.add_argument("--chute", type=Path, default=None, metavar="FILE",
+                        help="LAMMPS's bench/data.chute (that of the source that was built)")
     parser.add_argument("--out", type=Path, default=build / "benchmarks" / "gpu", help="folder of the results")
     parser.add_argument("--quick", action="store_true", help="tiny sizes: a test that it works, no figures")
+    parser.add_argument("--draw", action="store_true", help="only gpu.md and gpu.png, of the gpu.csv in --out")
     given = parser.parse_args()
-    if not given.lmp.is_file():
-        sys.exit(f"there is no {given.lmp}: build with -D EEPA_KOKKOS=on, or name a LAMMPS with --lmp")
+    table = given.out / "gpu.csv"
+    try:
+        rows = read(table) if given.draw else measure(given, table)
+    except (OSError, ValueError, RunFailed) as failure:
+        sys.exit(f"run_gpu.py: {failure}")
+    if not rows:
+        sys.exit("run_gpu.py: no run was finished")
+    report(rows, given.out)
 
+
+def measure(given: argparse.Namespace, table: Path) -> List[Dict]:
     counts = [int(count) for count in given.particles]
-    if min(counts) < 1000:
-        sys.exit(f"--particles {min(counts)}: allowed are 1000 and more")
-    rounds = 1 if given.quick else given.rounds
+    if min(counts) < 1000 or given.rounds < 1 or given.steps < 0:
+        raise ValueError("allowed are --particles of 1000 and more, --rounds of 1 and more, --steps of 0 and more")
+    if not given.lmp.is_file():
+        raise ValueError(f"there is no {given.lmp}: build with -D EEPA_KOKKOS=on, or name a LAMMPS with --lmp")
     # without any, the pair styles are the processor's
     kokkos = ["-k", "on", *given.kokkos.split(), "-sf", "kk", "-pk", "kokkos", *given.package.split()] if given.kokkos else []
     program = Program(given.lmp.resolve(), bind=False)
     work = given.out.resolve() / "work"
     work.mkdir(parents=True, exist_ok=True)
-    try:
-        loads = workloads(program, given.cases, counts, given.every, work, given.lammps_source, given.quick)
-        rows = gpu.measure(program, kokkos, loads, given.laws, rounds, work)
-    except (FileNotFoundError, RunFailed) as failure:
-        sys.exit(str(failure))
-    write_csv(given.out / "gpu.csv", rows)
-    plots.particle_steps(gpu.speeds(rows), given.out / "gpu.png")
-    where = card.names() if given.kokkos.startswith("g") else ""
-    text = (f"{where or 'No GPU'}; {' '.join(kokkos)}. In brackets over gran/hooke/history; "
-            f"medians of {rounds} rounds.\n\n{gpu.table(rows)}")
-    (given.out / "gpu.md").write_text(text, encoding="utf-8")
-    print("\n" + text)
+    loads = workloads(program, given, counts, work)
+    where = (card.names() or "a GPU that nvidia-smi does not name") if given.kokkos.startswith("g") else "no GPU"
+    about = {"on": where, "kokkos": " ".join(kokkos), "date": f"{datetime.date.today():%Y-%m-%d}", "rounds": given.rounds}
+
+    def note(rows: List[Dict]) -> None:
+        with (work / LOG).open(encoding="utf-8", errors="replace") as log:
+            rows[-1].update(about, lammps=log.readline().strip())
+        write_csv(table, rows)
+
+    return gpu.measure(program, kokkos, loads, given.laws, given.rounds, work, note)
 
 
-def workloads(program: Program, names: Sequence[str], counts: Sequence[int], every: Sequence[int], work: Path,
-              lammps_source: Optional[Path], quick: bool) -> List[gpu.Workload]:
-    """:param quick: one tiny size of each in place of `counts`"""
-    steps = 60 if quick else 0
+def workloads(program: Program, given: argparse.Namespace, counts: Sequence[int], work: Path) -> List[gpu.Workload]:
+    """Files that are missing are told before anything is made."""
+    steps = 60 if given.quick else given.steps
+    chute: Optional[Path] = None
+    if "chute" in given.cases:
+        chute = given.chute or Path(machine.configured(program.lmp.parent)["lammps_source_path"]) / "bench" / "data.chute"
+        if not chute.is_file():
+            raise ValueError(f"there is no {chute}: name LAMMPS's bench/data.chute with --chute, or leave chute out of --cases")
     loads: List[gpu.Workload] = []
-    if "lattice" in names:
-        loads += gpu.lattices([216] if quick else counts, every, steps)
-    if "dense" in names:
-        loads += gpu.dense(program, work, [600] if quick else counts, 600 if quick else 20000, steps)
-    if "chute" in names:
-        loads += gpu.chutes(lammps_source or Path(machine.configured(program.lmp.parent)["lammps_source_path"]),
-                           [32000] if quick else counts, steps)
+    if "lattice" in given.cases:
+        loads += gpu.lattices([216] if given.quick else counts, given.every, steps)
+    if "dense" in given.cases:
+        loads += gpu.dense(program, work, [600] if given.quick else counts, 600 if given.quick else 20000, steps)
+    if chute:
+        loads += gpu.chutes(chute, [32000] if given.quick else counts, steps)
     return loads
+
+
+def read(table: Path) -> List[Dict]:
+    with table.open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def report(rows: Sequence[Dict], out: Path) -> None:
+    first = rows[0]
+    text = (f"{first['on']}; {first['lammps']}; {first['kokkos']}; {first['date']}. In brackets over gran/hooke/history; "
+            f"medians of {first['rounds']} rounds.\n\n{gpu.tables(rows)}")
+    (out / "gpu.md").write_text(text, encoding="utf-8")
+    print("\n" + text)
+    try:
+        from bench import plots
+    except ImportError as missing:
+        print(f"No figure: {missing.name} is missing. run_gpu.py --draw makes it where it is.")
+        return
+    plots.particle_steps(gpu.speeds(rows), out / "gpu.png")
 
 
 if __name__ == "__main__":

@@ -60,14 +60,16 @@ class Case:
         return replace(self, warm=warm, steps=steps)
 
 
-def chute(lammps_source: Path, copies: Tuple[int, int] = (1, 1)) -> Case:
-    """32,000 particles, copied along and across the flow.
-
-    :raise FileNotFoundError: where LAMMPS's source has no bench folder
-    """
+def chute(lammps_source: Path) -> Case:
+    """:raise FileNotFoundError: where LAMMPS's source has no bench folder"""
     data = lammps_source / "bench" / "data.chute"
     if not data.is_file():
         raise FileNotFoundError(f"no {data}: the chute needs the folder bench of LAMMPS's source")
+    return chute_of(data)
+
+
+def chute_of(data: Path, copies: Tuple[int, int] = (1, 1)) -> Case:
+    """The 32,000 particles of LAMMPS's data.chute, copied along and across the flow."""
     return Case(f"chute {32000 * math.prod(copies)}", HERE / "in.chute", CHUTE, data, (*copies, 1), steps=2000)
 
 
