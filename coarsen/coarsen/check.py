@@ -10,7 +10,8 @@ A quantity is equivalent when the 90% interval of its difference lies within the
 (equivalence.py), and diameters are when all quantities are. Coarse runs are compared with the finest that was
 run; with a real diameter that is finer still, and three diameters or more, with what a straight line over d
 gives there, whether or not its slope is significant: what a slope of chance may be is in the interval. Where the
-means lie on no straight line nothing is extrapolated, and the verdict is undecided.
+means lie on no straight line, or there are two diameters, nothing is extrapolated: the verdict is undecided, or
+different where the runs differ among themselves.
 """
 from __future__ import annotations
 
@@ -48,6 +49,10 @@ def verdicts(results: pd.DataFrame, tolerance: Dict[str, float], real: Optional[
     if (results.groupby("d")[wanted].nunique() <= 1).all(axis=None):
         raise NothingToCompare(f"{', '.join(wanted)}: the same at every seed, to the last digit: does the in-file use "
                                "its variable seed?")
+    for quantity in wanted:
+        values = results[quantity].dropna()
+        if not np.all(np.isfinite(values) & (values > 0.0)):
+            raise NothingToCompare(f"{quantity}: of the results {', '.join(f'{v:g}' for v in values)} all must be numbers above 0")
     rows: List[Dict[str, object]] = []
     for quantity, allowed in tolerance.items():
         table = results.pivot(index="seed", columns="d", values=quantity)
@@ -56,12 +61,13 @@ def verdicts(results: pd.DataFrame, tolerance: Dict[str, float], real: Optional[
         for diameter in [d for d in table if d > finest]:
             if line is not None and line.is_straight:
                 step = diameter - real
-                verdict = judge(line.slope * step, line.error * abs(step), line.freedom, allowed, len(table))
+                verdict = judge(line.slope * step, line.error * abs(step), line.freedom, allowed, line.seeds)
             else:
                 both = table[[diameter, finest]].dropna() if paired else table[[diameter, finest]]
                 verdict = compare(both[diameter].dropna(), both[finest].dropna(), allowed, paired)
-                if real is not None and not np.isclose(real, finest) and verdict.verdict == EQUIVALENT:
-                    verdict = replace(verdict, verdict=OPEN)  # it says nothing on the real diameter
+                if real is not None and not np.isclose(real, finest):
+                    # it says nothing on the real diameter, and more seeds would not either
+                    verdict = replace(verdict, verdict=DIFFERENT if verdict.verdict == DIFFERENT else OPEN, needed=0)
             extrapolated = line is not None and line.is_straight
             rows.append({"quantity": quantity, "d": diameter, "against": real if extrapolated else finest,
                          "trend": bool(extrapolated and line.probability < LEVEL), **vars(verdict)})
@@ -71,30 +77,30 @@ def verdicts(results: pd.DataFrame, tolerance: Dict[str, float], real: Optional[
 @dataclass(frozen=True)
 class Line:
     """log of a quantity over diameter: slope (1/m), its standard error and degrees of freedom, the probability
-    that a slope so large is chance, and whether the means lie on the line within the scatter of the seeds."""
+    that a slope so large is chance, whether the means lie on the line within the scatter of the seeds, and of how many
+    seeds it is."""
 
     slope: float
     error: float
     freedom: int
     probability: float
     is_straight: bool
+    seeds: int
 
 
 def line_through(table: pd.DataFrame, paired: bool = False) -> Optional[Line]:
-    """None with fewer than three diameters.
+    """None with fewer than three diameters or two seeds.
 
     :param table: a row a seed, a column a diameter
     :param paired: each seed has a line of its own, and all of them one slope: what is peculiar to a seed is none of its
         scatter. Seeds that lack a diameter are left out
     """
-    if table.shape[1] < 3:
-        return None
     logs = np.log(table.dropna() if paired else table)
+    if table.shape[1] < 3 or len(logs) < 2:
+        return None
     seeds = len(logs) if paired else 1    # lines
     points = logs.sub(logs.mean(axis=1), axis=0).stack() if paired else logs.stack()
     x = points.index.get_level_values("d").to_numpy(float)
-    if len(points) < seeds + 2:
-        return None
     fit = stats.linregress(x, points)
     rest = points - fit.intercept - fit.slope * x
     freedom = len(points) - seeds - 1
@@ -102,10 +108,10 @@ def line_through(table: pd.DataFrame, paired: bool = False) -> Optional[Line]:
     groups = rest.groupby(level="d")
     between = (groups.size() * groups.mean()**2).sum() / (table.shape[1] - 2)
     inner = freedom - (table.shape[1] - 2)
-    within = ((rest - groups.transform("mean"))**2).sum() / max(1, inner)
-    straight = stats.f.sf(between / within, table.shape[1] - 2, inner) >= LEVEL if inner > 0 else True
+    within = ((rest - groups.transform("mean"))**2).sum() / inner
+    straight = stats.f.sf(between / within, table.shape[1] - 2, inner) >= LEVEL
     chance = 2.0 * stats.t.sf(abs(fit.slope) / error, freedom) if error > 0.0 else 0.0
-    return Line(fit.slope, error, freedom, float(chance), bool(straight))
+    return Line(fit.slope, error, freedom, float(chance), bool(straight), len(logs))
 
 
 def overall(verdicts_: Iterable[str]) -> str:

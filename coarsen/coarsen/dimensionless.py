@@ -18,9 +18,20 @@ STEP = 0.95 * 0.2
 #: 0.06, as examples/scale_collapse/evidence.py prints; of a bed that grains made themselves, pressed from 0.5 to 10 kPa.
 OVERLAP_OF_STRESS, OVERLAP_OF_LOOSE = 0.43, 0.8
 
-#: Of grains, in SI units.
-PLAUSIBLE = {"diameter": (1.0e-7, 0.1), "reference": (1.0e-7, 0.1), "density": (50.0, 25000.0)}
-UNITS = {"diameter": "m", "reference": "m", "density": "kg/m^3"}
+#: In SI units: what is beyond is meant in other ones.
+PLAUSIBLE = {"diameter": (1.0e-7, 0.1), "reference": (1.0e-7, 0.1), "density": (50.0, 25000.0), "smallest": (0.1, 1.0),
+             "width": (1.0e-5, 1.0e3), "length": (1.0e-5, 1.0e3), "height": (1.0e-5, 1.0e3), "solid_fraction": (0.01, 0.99),
+             "gravity": (0.0, 5.0e3)}
+UNITS = {"diameter": " m", "reference": " m", "density": " kg/m^3", "width": " m", "length": " m", "height": " m",
+         "gravity": " m/s^2"}
+
+
+def _check_plausible(of: object) -> None:
+    for field in fields(of):    # type: ignore[arg-type]
+        value = getattr(of, field.name)
+        least, most = PLAUSIBLE.get(field.name, (-math.inf, math.inf))
+        if not least <= value <= most:
+            raise ValueError(f"{field.name} is {value:g}{UNITS.get(field.name, '')}, allowed are {least:g} to {most:g}")
 
 
 @dataclass(frozen=True)
@@ -52,15 +63,9 @@ class Powder:
                                              value >= 0.0 if field.name == "kadh" else value > 0.0)
             if not good:
                 raise ValueError(f"{field.name} is {value:g}, allowed are numbers {allowed}")
-        # what is beyond is another unit
-        for name, (least, most) in PLAUSIBLE.items():
-            value = getattr(self, name)
-            if not least <= value <= most:
-                raise ValueError(f"{name} is {value:g} {UNITS[name]}, allowed are {least:g} to {most:g}")
+        _check_plausible(self)
         if self.k2 < self.k1:
             raise ValueError(f"k2 is {self.k2:g}, allowed is k1 = {self.k1:g} or more")
-        if self.smallest > 1.0:
-            raise ValueError(f"smallest is {self.smallest:g}, allowed is 1 or less")
 
     def softened(self, factor: float) -> "Powder":
         """With stiffnesses divided by a factor, which lengthens the time step and deepens overlaps."""
@@ -86,19 +91,19 @@ class Powder:
         return self.scale(diameter)**2 * -self.f0 / (self.mass(diameter) * gravity)
 
     def overlap(self, stress: float, loose: bool = False) -> float:
-        """delta/d of the contacts under a stress, about; the same at every diameter.
+        """delta/d of the contacts under a stress and their own attraction, about; the same at every diameter.
 
         :param loose: in a bed that grains made themselves
         """
-        return (OVERLAP_OF_LOOSE if loose else OVERLAP_OF_STRESS) * stress * self.reference / self.k1
+        pressed = (OVERLAP_OF_LOOSE if loose else OVERLAP_OF_STRESS) * stress * self.reference / self.k1
+        return pressed - self.f0 / (self.k1 * self.reference)
 
 
 @dataclass(frozen=True)
 class Loading:
     """What is done with the powder. SI units.
 
-    :param width, height: of the specimen or machine, m; width is the narrowest place
-    :param length: of the other horizontal side, m
+    :param width, length, height: of the specimen or machine, m
     :param solid_fraction: of the packing
     :param low, high: stresses between which results are wanted, Pa
     :param rate: strain rate, 1/s
@@ -122,10 +127,14 @@ class Loading:
             least = "0 or more" if field.name == "gravity" else "above 0"
             if not (math.isfinite(value) and (value > 0.0 or (value == 0.0 and field.name == "gravity"))):
                 raise ValueError(f"{field.name} is {value:g}, allowed are numbers {least}")
-        if not self.solid_fraction < 1.0:
-            raise ValueError(f"solid fraction is {self.solid_fraction:g}, allowed is less than 1")
+        _check_plausible(self)
         if self.low > self.high:
             raise ValueError(f"stresses are {self.low:g} and {self.high:g}, allowed are rising ones")
+
+    @property
+    def narrowest(self) -> float:
+        """Of width, length and height, m."""
+        return min(self.width, self.length, self.height)
 
     def particles(self, diameter: float) -> int:
         volume = self.width * self.length * self.height * self.solid_fraction

@@ -27,8 +27,10 @@ NUMBERS = {"narrowness": "d/W, diameter over width", "inertia": "I, inertial num
            "bed": "weight of the bed over the lowest stress"}
 #: Up to here a number needs no evidence: below an inertial number of 1e-3 flow is quasi-static (MiDi, Eur. Phys.
 #: J. E 14 (2004) 341); a bed that weighs 3% of the stress changes strain, which depends on it most, by less than 1% (slope
-#: of the study of loose starts: 0.26). Where there is evidence, it is taken.
+#: of the study of loose starts: 0.21). Where there is evidence, it is taken.
 HARMLESS = {"inertia": 1e-3, "bed": 0.03}
+#: Largest change of a logarithm that is told.
+MOST_LOG = 20.0
 #: Probability outside the interval of a prediction.
 OUTSIDE = 0.1
 
@@ -142,8 +144,9 @@ def predict(table: pd.DataFrame, quantity: str, changes: Mapping[str, Tuple[floa
     for number, (fine, coarse) in changes.items():
         if math.isclose(fine, coarse, rel_tol=1e-9):
             # no effect, but no study either, where none went so far
-            most = max(table.loc[table["number"] == number, "most"].max(), included(table, quantity).get(number, 0.0))
-            if fine > most * (1.0 + 1e-9):
+            seen = table.loc[table["number"] == number, "most"]
+            most = max([included(table, quantity).get(number, 0.0), HARMLESS.get(number, 0.0), *seen])
+            if len(seen) and fine > most * (1.0 + 1e-9):
                 outside.append(f"{NUMBERS[number]} of {fine:.3g}, the studies end at {most:.3g}")
             continue
         try:
@@ -165,7 +168,9 @@ def predict(table: pd.DataFrame, quantity: str, changes: Mapping[str, Tuple[floa
     freedom = variance**2 / spread_of_freedom if spread_of_freedom > 0.0 else math.inf
     reach = math.sqrt(variance) * (stats.t.ppf(1.0 - OUTSIDE / 2.0, freedom) if math.isfinite(freedom) else
                                    stats.norm.ppf(1.0 - OUTSIDE / 2.0))
-    return Prediction(math.expm1(total), math.expm1(total - reach), math.expm1(total + reach), tuple(outside))
+    # what is far outside has no number
+    error, low, high = (math.expm1(min(max(x, -MOST_LOG), MOST_LOG)) for x in (total, total - reach, total + reach))
+    return Prediction(error, low, high, tuple(outside))
 
 
 def read(path: Path = TABLE) -> pd.DataFrame:

@@ -15,6 +15,7 @@ from .dimensionless import Loading, Powder
 #: Steps of a geometric series of diameters that are tried when none are named.
 SERIES = 8
 MOST_PARTICLES = 2.0e7
+FEWEST, LAMMPS_MOST = 250, 2**31 - 1
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ def numbers_of(powder: Powder, loading: Loading, diameter: float, scaled_gravity
     if gravity:  # without attraction it outweighs all
         weight = 1.0 / powder.bond_number(diameter, gravity) if powder.f0 else math.inf
     bed = powder.density * loading.solid_fraction * gravity * loading.height / loading.low
-    return {"narrowness": diameter / loading.width, "inertia": loading.inertial_number(diameter, powder.density),
+    return {"narrowness": diameter / loading.narrowest, "inertia": loading.inertial_number(diameter, powder.density),
             "overlap": powder.overlap(loading.high, loose=gravity > 0.0), "weight": weight, "bed": bed}
 
 
@@ -78,10 +79,13 @@ def line(powder: Powder, loading: Loading, diameter: float, wanted: Dict[str, fl
                    f"{100 * (1.0 / (1.0 + wanted[quantity]) - 1.0):+.1f} to {100 * wanted[quantity]:+.1f}%"
                    for quantity, p in predictions.items()
                    if not max(-math.log1p(p.low), math.log1p(p.high)) <= math.log1p(wanted[quantity])]
+    count, step = loading.particles(diameter), simulated.time_step(diameter)
+    if not FEWEST <= count <= LAMMPS_MOST:
+        objections.append(f"{count:.3g} particles, allowed are {FEWEST} (the fewest of the studies) to {LAMMPS_MOST:.3g} (LAMMPS's "
+                          "32-bit IDs)")
     if calibrated is not None:
         objections += [f"what the coefficients leave open in {quantity} is not known" for quantity in wanted
                        if not math.isfinite(calibrated.get(quantity, math.nan))]
-    count, step = loading.particles(diameter), simulated.time_step(diameter)
     steps = loading.steps(step)
     return Line(diameter, count, step, steps, count * float(steps) / speed.particle_steps,
                 speed.program_bytes + count * speed.particle_bytes, coarse, predictions,
@@ -97,7 +101,7 @@ def series(powder: Powder, loading: Loading) -> List[float]:
     """Diameters from the powder's own, or the finest that a simulation can hold, to a sixth of the width."""
     finest = max(powder.diameter, powder.diameter
                  * (loading.particles(powder.diameter) / MOST_PARTICLES)**(1.0 / 3.0))
-    coarsest = max(loading.width / 6.0, finest)
+    coarsest = max(loading.narrowest / 6.0, finest)
     return sorted({max(float(f"{d:.2g}"), powder.diameter) for d in np.geomspace(finest, coarsest, SERIES)})
 
 

@@ -19,6 +19,8 @@ from .results import PRELOAD, costs
 
 #: Quantities of specimens of in.confined and in.unconfined.
 SPECIMEN = ("strain", "porosity_before", "porosity", "coordination", "bulk_modulus", "lateral_ratio", "strength")
+#: Of a shear tester and of a silo.
+MACHINES = ("shear_strength", "flow_function", "friction_angle", "steady_angle", "flow")
 INFILES = Path(__file__).resolve().parents[2] / "examples" / "scale_collapse"
 
 
@@ -43,7 +45,7 @@ def add(commands: Any) -> None:
                         help="smallest diameter over --diameter, for a distribution (1)")
     test = parser.add_argument_group("test")
     test.add_argument("--width", type=float, required=True, metavar="M",
-                      help="of the specimen or machine at its narrowest place: gap, orifice")
+                      help="of the specimen or machine: gap, orifice")
     test.add_argument("--length", type=float, default=None, metavar="M", help="the other way (--width)")
     test.add_argument("--height", type=float, default=None, metavar="M", help="(--width)")
     test.add_argument("--solid-fraction", type=float, default=0.6, metavar="PART", help="(0.6)")
@@ -80,6 +82,8 @@ def _check_include(arguments: argparse.Namespace, loading: Loading, wanted: Mapp
     """:raise ValueError: where --write would write what is not in.confined's"""
     if not arguments.write:
         return
+    if not arguments.write.resolve().parent.is_dir():
+        raise ValueError(f"--write {arguments.write}: there is no such folder")
     machine = sorted(set(wanted) - set(SPECIMEN))
     for wrong, said in ((loading.length != loading.width, f"--length is {loading.length:g}: it is for specimens as long as wide, "
                          f"{loading.width:g}"),
@@ -98,6 +102,12 @@ def run(arguments: argparse.Namespace) -> int:
                       arguments.solid_fraction, *arguments.stress, arguments.rate, arguments.strain,
                       arguments.gravity)
     wanted = percentages(arguments.want)
+    if arguments.true_gravity and not loading.gravity:
+        raise ValueError("--true-gravity needs --gravity")
+    machine = [quantity for quantity in wanted if quantity in MACHINES]
+    if machine and not (loading.gravity and arguments.true_gravity):
+        raise ValueError(f"--want {machine[0]}: the machines' studies had the same gravity at every diameter: give --gravity 9.81 "
+                         "--true-gravity")
     simulated = powder.softened(arguments.soften)
     _check_include(arguments, loading, wanted)
     table = evidence.read()
@@ -106,8 +116,9 @@ def run(arguments: argparse.Namespace) -> int:
         raise ValueError(f"--want {unknown[0]}: no evidence, there is some for "
                          f"{', '.join(sorted(table['quantity'].unique()))}")
     sizes = series(powder, loading) if arguments.diameters is None else arguments.diameters
-    if not all(map(math.isfinite, sizes)):
-        raise ValueError(f"--diameters {' '.join(f'{d:g}' for d in sizes)}: allowed are numbers")
+    if not all(map(math.isfinite, sizes)) or len(set(sizes)) < len(sizes) or max(sizes) > loading.narrowest:
+        raise ValueError(f"--diameters {' '.join(f'{d:g}' for d in sizes)}: allowed are numbers up to the narrowest side, "
+                         f"{loading.narrowest:g}, each once")
     too_fine = [d for d in sizes if d < powder.diameter]
     if too_fine:
         raise ValueError(f"--diameters {too_fine[0]:g}: allowed are {powder.diameter:g} (the real one) or more")
@@ -154,7 +165,7 @@ def text(lines: Sequence[Line], speed: Speed) -> str:
     """For people, a paragraph a diameter."""
     quantities = list(lines[0].predictions)
     head = f"{'d (mm)':>8} {'particles':>10} {'step (s)':>9} {'steps':>9} {'core h':>8} {'GB':>6} {'W/d':>6} " \
-           f"{'I':>8} {'d/d':>6} {'Bo':>7}" + "".join(f"  {q[:20]:>20}" for q in quantities) + "  verdict"
+           f"{'I':>8} {'d/d':>6} {'Bo':>7} {'bed':>6}" + "".join(f"  {q[:20]:>20}" for q in quantities) + "  verdict"
     rows: List[str] = [f"{speed.particle_steps:.3g} particle steps a second and core; core h are those of the test; "
                        "to make its specimen takes half as long, by rain 1.6 times as long", "",
                        head.replace("d/d", "δ/d")]
@@ -163,7 +174,8 @@ def text(lines: Sequence[Line], speed: Speed) -> str:
         rows.append(f"{1e3 * one.diameter:>8.4g} {one.particles:>10} {one.time_step:>9.2e} {one.steps:>9} "
                     f"{one.core_seconds / 3600:>8.2g} {1e-9 * one.memory:>6.2g} "
                     f"{1 / one.numbers['narrowness']:>6.3g} {one.numbers['inertia']:>8.1e} "
-                    f"{one.numbers['overlap']:>6.3f} {f'{1 / weight:.3g}' if weight else '-':>7}"
+                    f"{one.numbers['overlap']:>6.3f} {f'{1 / weight:.3g}' if weight else '-':>7} "
+                    f"{one.numbers['bed']:>6.2g}"
                     + "".join(f"  {_interval(p):>20}" for p in one.predictions.values())
                     + f"  {'no' if one.objections else 'yes'}")
     reasons = [(one, reason) for one in lines for reason in one.objections]

@@ -47,7 +47,7 @@ def _safe(text: str) -> Any:
 def varied(runs: pd.DataFrame, results: Sequence[str]) -> List[str]:
     """The variables in which a group's specimens differ, but for the seed and what was measured."""
     inputs = runs.columns.drop(["group", *COSTS, *results], errors="ignore")
-    return [name for name in inputs if name != _SEED and runs[name].nunique() > 1] or ["d"]
+    return [name for name in inputs if name != _SEED and runs[name].nunique() > 1] or ["group"]
 
 
 def means(runs: pd.DataFrame, results: Sequence[str]) -> pd.DataFrame:

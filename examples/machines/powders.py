@@ -136,8 +136,7 @@ def main() -> None:
                  Loading(WIDTH, WIDTH, WIDTH, 0.62, 5e3, 40e3, 0.5, 0.2, 0.0)),
         "lactose": (lactose, ["shear_strength", "flow_function", "friction_angle", "steady_angle"],
                     _powder(100e-6, {"density": 2000.0, "k2": 2 * LACTOSE["k1"], **LACTOSE}),
-                    Loading(RING, RING, RING, 0.55, 5e3, 5e3, 2.0, 1.2, 0.0)),
-        # its bed lies on the bottom with the same weight at every diameter
+                    Loading(RING, RING, RING, 0.55, 5e3, 5e3, 2.0, 1.2, 9.81)),
         "iron ore": (iron_ore, ["flow"], _powder(1e-3, IRON_ORE),
                      Loading(ORIFICE, ORIFICE, ORIFICE, 0.55, 300.0, 300.0, 1e-3, 1.0, 9.81))}
     rows: List[dict] = []

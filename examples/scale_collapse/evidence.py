@@ -38,9 +38,13 @@ STUDIES = {"dense": (["width"], ["narrowness"]),
 LOOSE = ["loose", "loose_fine", "loose_true_weight"]
 #: Beyond it the effect of the inertial number is no longer in proportion to it, and grows fast (evidence.md).
 LINEAR_INERTIA = 2.0e-3
-#: At one rate in one machine the inertial number goes with d, and its effect is in the slope over d/W; likewise weight over
-#: attraction in a silo, of ../machines/in.powder up to 3 mm. Its bed is the same at every diameter.
-INCLUDED = {"shear_cell": {"inertia": 3.8e-3},
+#: The same of overlaps, of which `coarsen plan` allows no more.
+LARGEST_OVERLAP = 0.06
+#: Groups in which a seed has one packing, whatever the number that is varied.
+PAIRED = ("inertia", "overlap")
+#: At one rate in one machine the inertial number goes with d, and its effect is in the slope over d/W; likewise, with the same
+#: gravity at every diameter, weight over attraction (of ../machines/in.powder, up to 3 mm) and what the bed weighs.
+INCLUDED = {"shear_cell": {"inertia": 3.8e-3, "weight": 0.771, "bed": 0.15},
             **{machine: {"weight": 0.771, "bed": np.inf} for machine in ("silo 16 mm", "silo 20 mm")}}
 #: Of results/strength.csv; the others are these with one coefficient a little changed.
 MATERIALS = ("base", "cohesionless", "plateau", "pull_off", "k1_10", "kadh_7.5", "tensile_200")
@@ -62,7 +66,7 @@ def with_numbers(runs: pd.DataFrame) -> pd.DataFrame:
         narrowness=runs["d"] / runs["side"],
         inertia=runs["inertial_number"],
         weight=mass * gravity / (size**2 * -runs["f0"]),
-        bed=runs["density"] * (1.0 - runs["porosity_before"]) * gravity * runs["side"] / (PRELOAD * runs["ppack"]),
+        bed=runs["particles"] * mass * gravity / runs["side"]**2 / (PRELOAD * runs["ppack"]),
         strength=[row.get(column, np.nan) for column, (_, row) in zip(columns, runs.iterrows())])
 
 
@@ -96,7 +100,8 @@ def slopes(runs: pd.DataFrame) -> pd.DataFrame:
     known = with_numbers(runs)
     parts: List[pd.DataFrame] = []
     for study, (groups, numbers) in STUDIES.items():
-        some = known[known["group"].isin(groups) & (known["inertia"] <= LINEAR_INERTIA)]
+        some = known[known["group"].isin(groups) & (known["inertia"] <= LINEAR_INERTIA)
+                     & (known["overlap"] <= LARGEST_OVERLAP)]
         parts.append(evidence.slopes_of(some, study, QUANTITIES, numbers, paired=study in ("rate", "soft")))
     for study, means in older(HERE / "results" / "strength.csv").items():
         parts.append(evidence.slopes_of(means, study, QUANTITIES, ["narrowness"], "strength.md"))
@@ -104,11 +109,21 @@ def slopes(runs: pd.DataFrame) -> pd.DataFrame:
         parts.append(evidence.slopes_of(means, machine, [c for c in means if f"{c}_error" in means],
                                         ["narrowness"], included=INCLUDED.get(machine, {})))
     dense = pd.concat(parts, ignore_index=True)
-    some = known[known["group"].isin(LOOSE)]
-    some = some.assign(bed=some.groupby(["group", "d"])["bed"].transform("mean"))  # packings of a kind have one number
-    of_width = {q: np.exp(evidence.effect(dense, q, "narrowness").slope * some["narrowness"]) for q in QUANTITIES}
-    loose = evidence.slopes_of(some.assign(**{q: some[q] / of_width[q] for q in QUANTITIES}), "loose", QUANTITIES, ["weight", "bed"])
+    loose = loose_slopes(known[known["group"].isin(LOOSE)], dense)
     return pd.concat([dense, loose], ignore_index=True)
+
+
+def loose_slopes(some: pd.DataFrame, dense: pd.DataFrame) -> pd.DataFrame:
+    """Over weight and bed, when the effect of d/W that other studies have is taken off; its error and scatter between
+    those studies are in the errors. Strength, which is a stress at 5% of strain here, has that of other strengths."""
+    numbers = ["weight", "bed"]
+    effects = {quantity: evidence.effect(dense, quantity, "narrowness") for quantity in QUANTITIES}
+    bare = some.assign(**{q: some[q] / np.exp(effects[q].slope * some["narrowness"]) for q in QUANTITIES})
+    found = evidence.slopes_of(bare, "loose", QUANTITIES, numbers)
+    # by how much a slope changes with that of d/W
+    shares = evidence.slopes_of(some.assign(q=np.exp(some["narrowness"])), "", ["q"], numbers).set_index("number")["slope"]
+    spread = found["quantity"].map({q: np.hypot(e.error, e.scatter) for q, e in effects.items()})
+    return found.assign(error=np.hypot(found["error"], found["number"].map(shares) * spread))
 
 
 #: Rows of the tables of evidence.md: what it says, and group, variables of the coarse and of the fine specimens.
@@ -127,9 +142,9 @@ COMPARED = (
     ("log-normal, 3 mm with 1.5 mm, one box", ("sizes", {"d": 3e-3, "side": 30e-3}), ("sizes", {"d": 1.5e-3})),
     ("log-normal, 3 mm with 1.5 mm, as many wide", ("sizes", {"d": 3e-3, "side": 60e-3}), ("sizes", {"d": 1.5e-3})),
     *((f"{w} diameters wide with 30", ("width", {"side": w * 2e-3}), ("width", {"side": 60e-3}))
-      for w in (6, 8, 10, 15, 20)),
-    *((f"rate {r:g}/s with 0.2/s", ("inertia", {"rate": r}), ("inertia", {"rate": 0.2})) for r in (0.5, 1.5, 5.0, 10.0)),
-    *((f"stiffness over {5e3 / k:g}", ("overlap", {"k1": k}), ("overlap", {"k1": 5e3})) for k in (2e3, 1e3, 5e2)))
+      for w in (6, 8, 10, 15, 20, 40)),
+    *((f"rate {r:g}/s with 0.2/s", ("inertia", {"rate": r}), ("inertia", {"rate": 0.2})) for r in (0.5, 1.5, 5.0, 10.0, 15.0)),
+    *((f"stiffness over {5e3 / k:g}", ("overlap", {"k1": k}), ("overlap", {"k1": 5e3})) for k in (2e3, 1e3, 5e2, 2.5e2)))
 
 
 def markdown(table: pd.DataFrame) -> str:
@@ -163,30 +178,36 @@ def compared(known: pd.DataFrame) -> pd.DataFrame:
         row = {"what": what, "packings": f"{len(coarse)}, {len(fine)}", "W/d": 1.0 / coarse["narrowness"].mean(),
                "I": coarse["inertia"].mean(), "overlap": coarse["overlap"].mean()}
         for quantity in [*QUANTITIES, LATER]:
-            sides = [some.loc[some[quantity].notna(), [quantity, "particles"]] for some in (coarse, fine)]
+            sides = [some.loc[some[quantity].notna(), [quantity, "particles", "seed"]] for some in (coarse, fine)]
             if all(map(len, sides)):
                 one, other = (np.log(side[quantity]) for side in sides)
-                row[quantity] = f"{100 * np.expm1(one.mean() - other.mean()):+.1f}{_error(sides, quantity)}"
+                row[quantity] = f"{100 * np.expm1(one.mean() - other.mean()):+.1f}{_error(sides, quantity, kinds[0][0] in PAIRED)}"
         rows.append(row)
     return pd.DataFrame(rows)
 
 
-def _error(sides: Sequence[pd.DataFrame], quantity: str) -> str:
-    """Standard error of the difference of the means of logarithms. A packing that is alone has no scatter of its own, and
-    gets that of the others, over the root of how many times their particles it has."""
-    scatter = [np.log(side[quantity]).var(ddof=1) * side["particles"].mean() for side in sides]
-    known = [value for value in scatter if np.isfinite(value)]
-    if not known:
+def _error(sides: Sequence[pd.DataFrame], quantity: str, paired: bool) -> str:
+    """Standard error of the difference of the means of logarithms.
+
+    A packing of N particles scatters with 1/sqrt(N), by as much on both sides: so one that is alone has an error, too.
+
+    :param paired: specimens of a seed are the same packing, and only their difference scatters
+    """
+    if paired:
+        one, other = (np.log(side.set_index("seed")[quantity]) for side in sides)
+        return f" ± {100 * (one - other).sem():.1f}"
+    freedom = [len(side) - 1 for side in sides]
+    if not any(freedom):
         return ""
-    squares = [(value if np.isfinite(value) else known[0]) / side["particles"].mean() / len(side)
-               for value, side in zip(scatter, sides)]
-    return f" ± {100 * np.sqrt(sum(squares)):.1f}"
+    scatter = sum(f * np.log(side[quantity]).var(ddof=1) * side["particles"].mean()
+                  for f, side in zip(freedom, sides) if f) / sum(freedom)
+    return f" ± {100 * np.sqrt(sum(scatter / side['particles'].mean() / len(side) for side in sides)):.1f}"
 
 
 def later_strain(curves: pd.DataFrame) -> pd.Series:
-    """Of each run, strain on loading between the stresses AFTER: far above what a bed weighs."""
+    """Of each run that begins below, strain on loading between the stresses AFTER: far above what a bed weighs."""
     load = curves[curves["branch"] == "load"]
-    points = load.groupby("run").apply(lambda c: pd.Series(np.interp(AFTER, c["stress"], c["strain"])))
+    points = load.groupby("run").apply(lambda c: pd.Series(np.interp(AFTER, c["stress"], c["strain"], np.nan, np.nan)))
     return 1.0 - (1.0 - points[1]) / (1.0 - points[0])
 
 
