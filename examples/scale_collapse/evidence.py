@@ -175,32 +175,36 @@ def compared(known: pd.DataFrame) -> pd.DataFrame:
         coarse, fine = (_chosen(known, *kind) for kind in kinds)
         if coarse.empty or fine.empty:
             continue
+        alike = [some for _, some in known[known["group"] == kinds[0][0]].groupby(["d", "side"])]
         row = {"what": what, "packings": f"{len(coarse)}, {len(fine)}", "W/d": 1.0 / coarse["narrowness"].mean(),
                "I": coarse["inertia"].mean(), "overlap": coarse["overlap"].mean()}
         for quantity in [*QUANTITIES, LATER]:
-            sides = [some.loc[some[quantity].notna(), [quantity, "particles", "seed"]] for some in (coarse, fine)]
+            sides, others = ([some.loc[some[quantity].notna(), [quantity, "particles", "seed"]] for some in kind]
+                             for kind in ((coarse, fine), alike))
             if all(map(len, sides)):
                 one, other = (np.log(side[quantity]) for side in sides)
-                row[quantity] = f"{100 * np.expm1(one.mean() - other.mean()):+.1f}{_error(sides, quantity, kinds[0][0] in PAIRED)}"
+                row[quantity] = f"{100 * np.expm1(one.mean() - other.mean()):+.1f}{_error(sides, quantity, kinds[0][0] in PAIRED, others)}"
         rows.append(row)
     return pd.DataFrame(rows)
 
 
-def _error(sides: Sequence[pd.DataFrame], quantity: str, paired: bool) -> str:
+def _error(sides: Sequence[pd.DataFrame], quantity: str, paired: bool, others: Sequence[pd.DataFrame] = ()) -> str:
     """Standard error of the difference of the means of logarithms.
 
     A packing of N particles scatters with 1/sqrt(N), by as much on both sides: so one that is alone has an error, too.
 
     :param paired: specimens of a seed are the same packing, and only their difference scatters
+    :param others: kinds of specimens whose scatter is taken where both packings are alone
     """
     if paired:
         one, other = (np.log(side.set_index("seed")[quantity]) for side in sides)
         return f" ± {100 * (one - other).sem():.1f}"
-    freedom = [len(side) - 1 for side in sides]
-    if not any(freedom):
+    several = [some for some in sides if len(some) > 1] or [some for some in others if len(some) > 1]
+    if not several:
         return ""
-    scatter = sum(f * np.log(side[quantity]).var(ddof=1) * side["particles"].mean()
-                  for f, side in zip(freedom, sides) if f) / sum(freedom)
+    freedom = [len(some) - 1 for some in several]
+    scatter = sum(f * np.log(some[quantity]).var(ddof=1) * some["particles"].mean()
+                  for f, some in zip(freedom, several)) / sum(freedom)
     return f" ± {100 * np.sqrt(sum(scatter / side['particles'].mean() / len(side) for side in sides)):.1f}"
 
 

@@ -27,7 +27,9 @@ class Errors(unittest.TestCase):
         # 4,000 packings on one side and one of four times the particles on the other: half the scatter, and nothing else
         said = study._error(self.sides([(4000, 1000), (1, 4000)]), "q", False)
         self.assertRegex(said, r"^ ± 1\.0$")
-        self.assertEqual(study._error(self.sides([(1, 1000), (1, 1000)]), "q", False), "")
+        alone = self.sides([(1, 1000), (1, 1000)])
+        self.assertEqual(study._error(alone, "q", False), "")
+        self.assertRegex(study._error(alone, "q", False, self.sides([(4000, 250)])), r"^ ± 2\.8$")    # 2% each
 
     def test_what_packings_have_in_common_is_no_error(self):
         one, _ = self.sides([(6, 1000), (1, 1000)], scatter=0.1)
