@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
+import math
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -14,6 +15,7 @@ import pandas as pd
 import yaml
 
 from . import calibrate, measure, workflow
+from .dimensionless import Powder
 from .options import add_running
 from .results import PRELOAD, defaults_of
 
@@ -48,10 +50,21 @@ def add(commands: Any) -> None:
     parser.set_defaults(work=run)
 
 
-def run(arguments: argparse.Namespace) -> int:
+def _check(a: argparse.Namespace) -> None:
+    """:raise ValueError: for what is not allowed, before anything runs"""
     for name in ("seeds", "steps"):
-        if getattr(arguments, name) < 1:
-            raise ValueError(f"--{name} is {getattr(arguments, name)}, allowed is 1 or more")
+        if getattr(a, name) < 1:
+            raise ValueError(f"--{name} is {getattr(a, name)}, allowed is 1 or more")
+    if len(set(a.free)) < len(a.free):
+        raise ValueError(f"--free {' '.join(a.free)}: allowed is each once")
+    Powder(a.diameter, 2000.0, a.dref, a.k1, 2.0 * a.k1, a.kadh, a.f0)    # which says what is wrong
+    for name, least in (("mu", 0.0), ("mur", 0.0), ("preshear", 1.0), ("side", 6.0 * a.diameter)):
+        if not least <= getattr(a, name) < math.inf:
+            raise ValueError(f"--{name} is {getattr(a, name):g}, allowed are numbers from {least:g} on")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    _check(arguments)
     targets = calibrate.read_targets(arguments.targets)
     preload = PRELOAD * float(defaults_of(SPECIMENS / "in.confined")["ppack"])
     low = targets[targets["quantity"].isin(("strain", "porosity_change")) & (targets["stress"] <= preload)]

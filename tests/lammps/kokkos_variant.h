@@ -24,6 +24,7 @@ class Variant : public Simulation {
   static std::vector<std::string> with_kokkos(KokkosComm comm)
   {
     const char *where = std::getenv("EEPA_TEST_KOKKOS");
+    if (!where) where = std::getenv("EEPA_KOKKOS_DEVICE");
     return kokkos_with(where ? where : "t 1", comm);
   }
 };

@@ -682,6 +682,18 @@ class Commands(unittest.TestCase):
                 self.assertIn(said, text)
                 self.assertNotIn("Traceback", text)
 
+    def test_mistakes_of_calibrate_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            targets = Path(folder) / "targets.csv"
+            targets.write_text("quantity,stress,value\nstrain,2e4,0.005\n")
+            for words, said in ((["--diameter", "nan"], "diameter is nan"), (["--seeds", "0"], "--seeds is 0"), (["--k1", "nan"], "k1 is nan"),
+                                (["--free", "k1", "k1"], "allowed is each once"), (["--dref", "0"], "reference is 0"),
+                                (["--side", "1e-3"], "--side is 0.001, allowed are numbers from 0.012"), (["--mu", "-1"], "--mu is -1")):
+                with self.subTest(said):
+                    status, text = call("calibrate", targets, "--diameter", "2e-3", *words)
+                    self.assertEqual(status, 1, text)
+                    self.assertIn(said, text)
+
     def test_options(self):
         self.assertEqual(diameters([2.0, 1.0]), [1.0, 2.0])
         self.assertEqual(percentages(["a=5", "b=2.5%"]), {"a": 0.05, "b": 0.025})
