@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import statsmodels.api as sm
 from scipy import stats
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -183,6 +184,15 @@ class Check(unittest.TestCase):
         fewer = check.verdicts(table.drop(table.index[:2]), {"q": 0.9}, real=0.1).iloc[-1]
         self.assertAlmostEqual(math.log1p(fewer["difference"]), 0.58, delta=2e-3)
         self.assertEqual(fewer["seeds"], 3)
+
+    def test_lines_of_seeds_are_least_squares_with_a_constant_for_each(self):
+        table = results(lambda d: math.exp(0.2 * d), seeds=4, scatter=0.02)
+        x = sm.add_constant(pd.get_dummies(table["seed"], drop_first=True, dtype=float).assign(d=table["d"]))
+        fit = sm.OLS(np.log(table["q"]), x).fit()
+        found = check.line_through(table.pivot(index="seed", columns="d", values="q"), paired=True)
+        for a, b in ((found.slope, fit.params["d"]), (found.error, fit.bse["d"]), (found.freedom, fit.df_resid),
+                     (found.probability, fit.pvalues["d"])):
+            self.assertAlmostEqual(a / b, 1.0, places=9)
 
     def test_one_seed_with_all_diameters_makes_no_line(self):
         table = results(lambda d: math.exp(0.2 * d), seeds=3, scatter=1e-3)
@@ -385,6 +395,11 @@ class Evidence(unittest.TestCase):
         # up to 4e-3 the effect of inertia is in a slope over d/W
         self.assertEqual(len(evidence.predict(self.TABLE, "q", {"inertia": (1e-5, 3.9e-3)}).outside), 0)
         self.assertEqual(len(evidence.predict(self.TABLE, "q", {"inertia": (1e-5, 5e-3)}).outside), 1)
+
+    def test_what_is_the_same_needs_no_study_below_what_is_harmless(self):
+        table = self.TABLE.assign(number="inertia", most=1e-4)
+        for value, outside in ((9e-4, 0), (2e-3, 1)):
+            self.assertEqual(len(evidence.predict(table.assign(included=""), "q", {"inertia": (value, value)}).outside), outside)
 
     def test_loose_starts_are_predicted_as_they_were(self):
         # With gravity over s the bed presses itself less, with the same gravity it does not: strains differ by ten percent.
