@@ -43,8 +43,8 @@ class Lattice:
         return INFILE
 
     def variables(self, law: str, _: Path) -> Dict[str, str]:
-        return {"law": law, "n": str(self.side), "every": str(self.every), "steps": str(self.steps), "warm": str(WARM),
-                "timed": "yes", "measure": str(MEASURE)}
+        return {"law": law, "n": str(self.side), "every": str(self.every), "steps": str(self.steps),
+                "warm": str(min(WARM, self.steps)), "timed": "yes", "measure": str(MEASURE)}
 
 
 @dataclass(frozen=True)
@@ -84,8 +84,7 @@ def dense(program: Program, work: Path, counts: Sequence[int], cell: int = 20000
     for count in counts:
         side = max(1, int((count / cell)**(1.0 / 3.0)))
         copies = (side, side, max(1, round(count / (cell * side * side))))
-        case = cases.dense(program, work, cell, copies)
-        made.append(Flow("dense", case.lasting(WARM, steps or steps_of(cell * math.prod(copies)))))
+        made.append(_flow("dense", cases.dense(program, work, cell, copies), cell * math.prod(copies), steps))
     return made
 
 
@@ -98,9 +97,13 @@ def chutes(data: Path, counts: Sequence[int], steps: int = 0) -> List[Flow]:
     for count in counts:
         side = max(1, int(math.sqrt(count / 32000)))
         copies = (side, max(1, round(count / (32000 * side))))
-        case = cases.chute_of(data, copies)
-        made.append(Flow("chute", case.lasting(WARM, steps or steps_of(32000 * math.prod(copies)))))
+        made.append(_flow("chute", cases.chute_of(data, copies), 32000 * math.prod(copies), steps))
     return made
+
+
+def _flow(name: str, case: cases.Case, particles: int, steps: int) -> Flow:
+    steps = steps or steps_of(particles)
+    return Flow(name, case.lasting(min(WARM, steps), steps))
 
 
 def read_log(log: str) -> TimedRun:
