@@ -58,7 +58,7 @@ def _check(a: argparse.Namespace) -> None:
     if len(set(a.free)) < len(a.free):
         raise ValueError(f"--free {' '.join(a.free)}: allowed is each once")
     Powder(a.diameter, 2000.0, a.dref, a.k1, 2.0 * a.k1, a.kadh, a.f0)    # which says what is wrong
-    for name, least in (("mu", 0.0), ("mur", 0.0), ("preshear", 1.0), ("side", 6.0 * a.diameter)):
+    for name, least in (("mu", 0.0), ("mur", 0.0), ("preshear", 1.0), ("side", 6.0 * (1.0 - 1.0e-9) * a.diameter)):
         if not least <= getattr(a, name) < math.inf:
             raise ValueError(f"--{name} is {getattr(a, name):g}, allowed are numbers from {least:g} on")
 
