@@ -175,7 +175,7 @@ def compared(known: pd.DataFrame) -> pd.DataFrame:
         coarse, fine = (_chosen(known, *kind) for kind in kinds)
         if coarse.empty or fine.empty:
             continue
-        alike = [some for _, some in known[known["group"] == kinds[0][0]].groupby(["d", "side"])]
+        alike = [some for _, some in known[known["group"].isin([kind[0] for kind in kinds])].groupby(["group", "d", "side"])]
         row = {"what": what, "packings": f"{len(coarse)}, {len(fine)}", "W/d": 1.0 / coarse["narrowness"].mean(),
                "I": coarse["inertia"].mean(), "overlap": coarse["overlap"].mean()}
         for quantity in [*QUANTITIES, LATER]:
@@ -188,18 +188,19 @@ def compared(known: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _error(sides: Sequence[pd.DataFrame], quantity: str, paired: bool, others: Sequence[pd.DataFrame] = ()) -> str:
+def _error(sides: Sequence[pd.DataFrame], quantity: str, paired: bool, kinds: Sequence[pd.DataFrame]) -> str:
     """Standard error of the difference of the means of logarithms.
 
-    A packing of N particles scatters with 1/sqrt(N), by as much on both sides: so one that is alone has an error, too.
+    A packing of N particles scatters with 1/sqrt(N), by as much in all specimens of the two groups: so one that is alone
+    has an error, and two that happen to be alike have no less.
 
     :param paired: specimens of a seed are the same packing, and only their difference scatters
-    :param others: kinds of specimens whose scatter is taken where both packings are alone
+    :param kinds: of specimens of the two groups
     """
     if paired:
         one, other = (np.log(side.set_index("seed")[quantity]) for side in sides)
         return f" ± {100 * (one - other).sem():.1f}"
-    several = [some for some in sides if len(some) > 1] or [some for some in others if len(some) > 1]
+    several = [some for some in kinds if len(some) > 1]
     if not several:
         return ""
     freedom = [len(some) - 1 for some in several]

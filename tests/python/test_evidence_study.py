@@ -23,19 +23,19 @@ class Errors(unittest.TestCase):
         return [pd.DataFrame({"q": np.exp(scatter * random.standard_normal(n) / math.sqrt(particles / 1000)), "seed": range(n),
                               "particles": particles}) for n, particles in counts]
 
-    def test_a_packing_that_is_alone_has_the_scatter_of_its_particles(self):
-        # 4,000 packings on one side and one of four times the particles on the other: half the scatter, and nothing else
-        said = study._error(self.sides([(4000, 1000), (1, 4000)]), "q", False)
-        self.assertRegex(said, r"^ ± 1\.0$")
-        alone = self.sides([(1, 1000), (1, 1000)])
-        self.assertEqual(study._error(alone, "q", False), "")
-        self.assertRegex(study._error(alone, "q", False, self.sides([(4000, 250)])), r"^ ± 2\.8$")    # 2% each
+    def test_packings_scatter_with_the_root_of_their_particles(self):
+        # one packing on each side, the other of four times the particles: half the scatter; of 2% with 1,000
+        sides = self.sides([(1, 1000), (1, 4000)])
+        kinds = self.sides([(4000, 250), (4000, 1000), (1, 4000)])
+        self.assertRegex(study._error(sides, "q", False, kinds), r"^ ± 2\.2$")
+        self.assertRegex(study._error(self.sides([(4, 1000), (1, 4000)]), "q", False, kinds), r"^ ± 1\.4$")
+        self.assertEqual(study._error(sides, "q", False, sides), "")
 
     def test_what_packings_have_in_common_is_no_error(self):
         one, _ = self.sides([(6, 1000), (1, 1000)], scatter=0.1)
         other = one.assign(q=1.05 * one["q"])[::-1]
-        self.assertEqual(study._error([one, other], "q", True), " ± 0.0")
-        self.assertNotEqual(study._error([one, other], "q", False), " ± 0.0")
+        self.assertEqual(study._error([one, other], "q", True, []), " ± 0.0")
+        self.assertNotEqual(study._error([one, other], "q", False, [one, other]), " ± 0.0")
 
     def test_later_strain_is_of_curves_that_have_both_stresses(self):
         curves = pd.DataFrame([{"run": run, "branch": "load", "stress": s, "strain": 1e-5 * s}
