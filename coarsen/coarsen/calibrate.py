@@ -45,6 +45,14 @@ def read_targets(path: Path) -> pd.DataFrame:
     for name in ("stress", "error"):
         if name not in table:
             table[name] = np.nan
+    for name in ("value", "stress", "error"):
+        numbers = pd.to_numeric(table[name], errors="coerce")
+        odd = table.loc[table[name].notna() & ~np.isfinite(numbers.fillna(np.inf)), name]
+        if len(odd):
+            raise ValueError(f"{path}: {name} {odd.iloc[0]}: allowed are numbers")
+        table[name] = numbers
+    if table.empty:
+        raise ValueError(f"{path}: it has no target")
     for k, row in table.iterrows():
         place = f"{path}: target {k + 1}"
         if row["quantity"] not in QUANTITIES:
@@ -85,6 +93,8 @@ def fit(start: Mapping[str, float], free: Sequence[str], targets: pd.DataFrame, 
             raise ValueError(f"free coefficient {name}, allowed are {', '.join(FREE)}")
         if start[name] == 0.0:
             raise ValueError(f"{name} starts at 0: give it another first value or keep it fixed")
+    if len(free) > len(targets):
+        raise ValueError(f"{len(free)} free coefficients and {len(targets)} targets, needed are as many targets or more")
     wanted = np.log(targets["value"].to_numpy(float))
     relative = (targets["error"] / targets["value"]).fillna(0.0).to_numpy(float)
     weight = np.maximum(relative, LEAST_ERROR) * math.sqrt(len(targets))
@@ -120,7 +130,13 @@ def fit(start: Mapping[str, float], free: Sequence[str], targets: pd.DataFrame, 
         found=np.exp(packings.mean(axis=0) * weight + wanted),
         error_of_coefficients=np.sqrt(np.einsum("jk,kl,jl->j", slopes, covariance, slopes)) * weight)
     return Fit(values_at(result.x), dict(zip(free, map(float, np.sqrt(np.diag(covariance))))),
-               float(np.linalg.norm(packings.mean(axis=0))), len(known), found, str(result.message))
+               float(np.linalg.norm(packings.mean(axis=0))), len(known), found,
+               str(result.message) + _at_bounds(free, result.x))
+
+
+def _at_bounds(free: Sequence[str], logs: np.ndarray) -> str:
+    far = [name for name, log in zip(free, logs) if abs(log) > 0.999 * REACH]
+    return f" {', '.join(far)} went as far as it may, a factor of 4: begin nearer, or look at the targets' units." if far else ""
 
 
 def _covariance(packings: np.ndarray, slopes: np.ndarray, of_target: np.ndarray) -> np.ndarray:

@@ -46,11 +46,17 @@ def verdicts(results: pd.DataFrame, tolerance: Dict[str, float], real: Optional[
         raise NothingToCompare(f"no run has the result {missing[0]}; there are "
                                f"{', '.join(c for c in results if c not in ('d', 'seed'))}")
     wanted = list(tolerance)
-    if (results.groupby("d")[wanted].nunique() <= 1).all(axis=None):
-        raise NothingToCompare(f"{', '.join(wanted)}: the same at every seed, to the last digit: does the in-file use "
+    same = (results.groupby("d")[wanted].nunique() <= 1).all()
+    if same.any():
+        raise NothingToCompare(f"{', '.join(same[same].index)}: the same at every seed, to the last digit: does the in-file use "
                                "its variable seed?")
+    if real is not None and real > results["d"].min() * (1.0 + 1e-9):
+        raise NothingToCompare(f"the real diameter is {real:g}, allowed are those up to the finest that was run, {results['d'].min():g}")
     for quantity in wanted:
         values = results[quantity].dropna()
+        few = [d for d, count in results.groupby("d")[quantity].count().items() if count < 2]
+        if few:
+            raise NothingToCompare(f"{quantity}: of diameter {few[0]:g} fewer than two runs have it")
         if not np.all(np.isfinite(values) & (values > 0.0)):
             raise NothingToCompare(f"{quantity}: of the results {', '.join(f'{v:g}' for v in values)} all must be numbers above 0")
     rows: List[Dict[str, object]] = []

@@ -77,9 +77,9 @@ def run(arguments: argparse.Namespace) -> int:
 def _study_of(arguments: argparse.Namespace, sizes: List[float]) -> Dict[str, Any]:
     entry: Dict[str, Any] = {"infile": arguments.infile.name}
     for name, *values in arguments.var:
-        if not values or name in ("d", "seed", "out", "files"):
+        if not values or name in ("d", "seed", "out", "files") or any(".." in value and "/" not in value for value in values):
             raise ValueError(f"--var {' '.join([name, *values])}: allowed is a name other than d, seed, out "
-                             "and files, and its value")
+                             "and files, and its value, which is no span")
         entry[name] = [list(values)] if len(values) > 1 else values[0]
     entry["d"] = [repr(size) for size in sizes]
     entry["seed"] = list(range(1, arguments.seeds + 1))

@@ -81,7 +81,7 @@ def line(powder: Powder, loading: Loading, diameter: float, wanted: Dict[str, fl
                    if not max(-math.log1p(p.low), math.log1p(p.high)) <= math.log1p(wanted[quantity])]
     count, step = loading.particles(diameter), simulated.time_step(diameter)
     if not FEWEST <= count <= LAMMPS_MOST:
-        objections.append(f"{count:.3g} particles, allowed are {FEWEST} (the fewest of the studies) to {LAMMPS_MOST:.3g} (LAMMPS's "
+        objections.append(f"{count:.3g} particles, allowed are {FEWEST} (about the fewest of the studies) to {LAMMPS_MOST:.3g} (LAMMPS's "
                           "32-bit IDs)")
     if calibrated is not None:
         objections += [f"what the coefficients leave open in {quantity} is not known" for quantity in wanted

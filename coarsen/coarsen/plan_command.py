@@ -82,8 +82,8 @@ def _check_include(arguments: argparse.Namespace, loading: Loading, wanted: Mapp
     """:raise ValueError: where --write would write what is not in.confined's"""
     if not arguments.write:
         return
-    if not arguments.write.resolve().parent.is_dir():
-        raise ValueError(f"--write {arguments.write}: there is no such folder")
+    if not arguments.write.resolve().parent.is_dir() or arguments.write.is_dir():
+        raise ValueError(f"--write {arguments.write}: there is no such folder, or it is one")
     machine = sorted(set(wanted) - set(SPECIMEN))
     for wrong, said in ((loading.length != loading.width, f"--length is {loading.length:g}: it is for specimens as long as wide, "
                          f"{loading.width:g}"),
@@ -145,8 +145,12 @@ def _errors_of_coefficients(path: Path) -> Dict[str, float]:
     :raise ValueError: for a file without them
     """
     table = pd.read_csv(path)
-    if "error_of_coefficients" not in table:
-        raise ValueError(f"--calibrated {path}: it has no column error_of_coefficients")
+    missing = {"quantity", "error_of_coefficients"} - set(table)
+    if missing:
+        raise ValueError(f"--calibrated {path}: it has no column {', '.join(sorted(missing))}")
+    known = pd.to_numeric(table["error_of_coefficients"], errors="coerce")
+    if (known < 0.0).any() or (known.isna() & table["error_of_coefficients"].notna()).any():
+        raise ValueError(f"--calibrated {path}: error_of_coefficients must be numbers of 0 or more, or empty")
     return table.groupby("quantity")["error_of_coefficients"].apply(lambda x: x.max(skipna=False)).to_dict()
 
 

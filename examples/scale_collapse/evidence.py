@@ -18,6 +18,7 @@ sys.path.insert(0, str(HERE.parents[1] / "coarsen"))
 
 import evidence_figures  # noqa: E402  (beside this file)
 from coarsen import check, evidence  # noqa: E402
+from coarsen.measure import BadRun  # noqa: E402
 from coarsen.results import PRELOAD, tidy  # noqa: E402
 from coarsen.study import read_study  # noqa: E402
 
@@ -102,7 +103,9 @@ def slopes(runs: pd.DataFrame) -> pd.DataFrame:
     for study, (groups, numbers) in STUDIES.items():
         some = known[known["group"].isin(groups) & (known["inertia"] <= LINEAR_INERTIA)
                      & (known["overlap"] <= LARGEST_OVERLAP)]
-        parts.append(evidence.slopes_of(some, study, QUANTITIES, numbers, paired=study in ("rate", "soft")))
+        # some specimens of the one box are those of the other widths
+        parts.append(evidence.slopes_of(some, study, QUANTITIES, numbers, "dense" if "dense" in study else "",
+                                        paired=study in ("rate", "soft")))
     for study, means in older(HERE / "results" / "strength.csv").items():
         parts.append(evidence.slopes_of(means, study, QUANTITIES, ["narrowness"], "strength.md"))
     for machine, means in machines(HERE.parent / "machines" / "coarse.csv").items():
@@ -244,7 +247,7 @@ def with_earlier(found: pd.DataFrame, path: Path, names: pd.Index, by: str = "ru
     """
     earlier = pd.read_csv(path, index_col=by)
     kept = earlier[earlier.index.isin(names) & ~earlier.index.isin(found.index)]
-    both = pd.concat([kept, found]) if len(kept) else found
+    both = pd.concat([some for some in (kept, found) if len(some)])
     return both.loc[[name for name in names if name in both.index]].rename_axis(by)
 
 
@@ -262,7 +265,11 @@ def main() -> None:
         print(resampling(runs).round(2).to_string(index=False))
         return
     names = read_study(arguments.study).index
-    runs, curves = tidy(read_study(arguments.study), arguments.out, HERE)
+    try:
+        runs, curves = tidy(read_study(arguments.study), arguments.out, HERE)
+    except BadRun as none:
+        print(f"{none}: only the results of earlier runs")
+        runs, curves = pd.DataFrame(index=pd.Index([], name="run")), pd.DataFrame({"run": []})
     runs = with_earlier(runs, HERE / "results" / "evidence_runs.csv", names)
     curves = with_earlier(curves.set_index("run"), HERE / "results" / "evidence_curves.csv.gz", runs.index).reset_index()
     runs.to_csv(HERE / "results" / "evidence_runs.csv", float_format="%.6g")
