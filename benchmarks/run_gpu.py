@@ -41,11 +41,11 @@ def main() -> None:
     given = parser.parse_args()
     table = given.out / "gpu.csv"
     try:
-        rows = read(table) if given.draw else measure(given, table)
+        if not given.draw and not measure(given, table):
+            sys.exit("run_gpu.py: no run was finished")
+        rows = read(table)
     except (OSError, ValueError, RunFailed) as failure:
         sys.exit(f"run_gpu.py: {failure}")
-    if not rows:
-        sys.exit("run_gpu.py: no run was finished")
     report(rows, given.out)
 
 

@@ -46,9 +46,9 @@ def verdicts(results: pd.DataFrame, tolerance: Dict[str, float], real: Optional[
         raise NothingToCompare(f"no run has the result {missing[0]}; there are "
                                f"{', '.join(c for c in results if c not in ('d', 'seed'))}")
     wanted = list(tolerance)
-    same = (results.groupby("d")[wanted].nunique() <= 1).all()
-    if same.any():
-        raise NothingToCompare(f"{', '.join(same[same].index)}: the same at every seed, to the last digit: does the in-file use "
+    # one that is may be a count
+    if (results.groupby("d")[wanted].nunique() <= 1).all(axis=None):
+        raise NothingToCompare(f"{', '.join(wanted)}: the same at every seed, to the last digit: does the in-file use "
                                "its variable seed?")
     if real is not None and real > results["d"].min() * (1.0 + 1e-9):
         raise NothingToCompare(f"the real diameter is {real:g}, allowed are those up to the finest that was run, {results['d'].min():g}")
