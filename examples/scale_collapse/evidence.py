@@ -140,6 +140,7 @@ COMPARED = (
     *((f"loose, the same gravity, {1e3 * d:g} mm", ("loose_true_weight", {"d": d}), ("loose_fine", {}))
       for d in (2e-3, 3e-3)),
     *((f"loose, unscaled, {1e3 * d:g} mm", ("loose_unscaled", {"d": d}), ("loose_fine", {})) for d in (2e-3, 3e-3)),
+    *((f"loose, 1 mm, {1e3 * w:g} mm wide and high with 30 mm", ("loose_narrow", {"side": w}), ("loose_fine", {})) for w in (15e-3, 10e-3)),
     ("loose, as many diameters wide, 2 mm with 1 mm", ("loose", {"d": 2e-3}), ("loose_narrow", {"side": 15e-3})),
     ("loose, as many diameters wide, 3 mm with 1 mm", ("loose", {"d": 3e-3}), ("loose_narrow", {"side": 10e-3})),
     ("log-normal, 3 mm with 1.5 mm, one box", ("sizes", {"d": 3e-3, "side": 30e-3}), ("sizes", {"d": 1.5e-3})),
