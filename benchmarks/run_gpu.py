@@ -15,7 +15,7 @@ from typing import Dict, List, Optional, Sequence
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "examples" / "scale_collapse"), str(HERE.parent / "coarsen")]
 
-from bench import card, gpu, machine  # noqa: E402
+from bench import card, gpu, gpu_tables, machine  # noqa: E402
 from bench.lammps import LOG, Program, RunFailed  # noqa: E402
 from bench.output import write_csv  # noqa: E402
 
@@ -98,7 +98,7 @@ def read(table: Path) -> List[Dict]:
 def report(rows: Sequence[Dict], out: Path) -> None:
     first = rows[0]
     text = (f"{first['on']}; {first['lammps']}; {first['kokkos']}; {first['date']}. In brackets over gran/hooke/history; "
-            f"medians of {first['rounds']} rounds.\n\n{gpu.tables(rows)}")
+            f"medians of {first['rounds']} rounds.\n\n{gpu_tables.tables(rows)}")
     (out / "gpu.md").write_text(text, encoding="utf-8")
     print("\n" + text)
     try:
@@ -106,7 +106,7 @@ def report(rows: Sequence[Dict], out: Path) -> None:
     except ImportError as missing:
         print(f"No figure: {missing.name} is missing. run_gpu.py --draw makes it where it is.")
         return
-    plots.particle_steps(gpu.speeds(rows), out / "gpu.png")
+    plots.particle_steps(gpu_tables.speeds(rows), out / "gpu.png")
 
 
 if __name__ == "__main__":

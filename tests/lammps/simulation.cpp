@@ -72,7 +72,9 @@ std::vector<std::string> kokkos_of_environment()
 
 std::vector<std::string> kokkos_with(const std::string &where, KokkosComm comm)
 {
-  const char *loops = comm == KokkosComm::device ? "device" : comm == KokkosComm::host ? "host" : "no";
+  const char *loops = comm == KokkosComm::device ? "device"
+      : comm == KokkosComm::host                 ? "host"
+                                                 : "no";
   std::vector<std::string> words = {"-kokkos", "on"};
   std::istringstream stream(where);
   for (std::string word; stream >> word;) words.push_back(word);

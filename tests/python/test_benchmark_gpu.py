@@ -19,7 +19,7 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "examples" / "scale_collapse"), str(ROOT / "coarsen")]
 
-from bench import card, gpu, lammps, lammps_log  # noqa: E402
+from bench import card, gpu, gpu_tables, lammps, lammps_log  # noqa: E402
 
 LMP = os.environ.get("EEPA_LMP")
 LOG = """\
@@ -136,7 +136,7 @@ class Tables(unittest.TestCase):
                 for law, ms in (("hooke", hooke), ("sds", eepa))]
 
     def test_medians_of_ratios_of_the_same_round(self):
-        text = gpu.tables(self.rows()).split("\n\n")
+        text = gpu_tables.tables(self.rows()).split("\n\n")
         titles = [part for part in text if part.endswith(":")]
         lines = dict(zip(titles, ([line for line in part.splitlines() if "1,000" in line] for part in text if part.startswith("|"))))
         self.assertEqual(lines, {
@@ -147,10 +147,10 @@ class Tables(unittest.TestCase):
             "Memory of the card, bytes a particle more:": ["| b | from 1,000 to 3,000 | 1400 | 2100 |"]})
 
     def test_speeds(self):
-        self.assertEqual(gpu.speeds(self.rows())["a", "hooke"], [(1000, 5e5)])
+        self.assertEqual(gpu_tables.speeds(self.rows())["a", "hooke"], [(1000, 5e5)])
 
     def test_energy(self):
-        text = gpu.tables([{**row, "joule_a_particle_step": 2.5e-7} for row in self.rows()])
+        text = gpu_tables.tables([{**row, "joule_a_particle_step": 2.5e-7} for row in self.rows()])
         self.assertIn("| a | 1,000 | 250 | 250 (1.00) |", text)
 
 
