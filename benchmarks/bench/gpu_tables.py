@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from statistics import median
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 
 from .gpu import REFERENCE
+from .statistics import median, paired_ratios
 
 #: Columns of the rows, what is told of them, and times which they are told.
 _TOLD = (("ms_a_step", "Milliseconds a step", 1.0), ("pair_ms_a_step", "LAMMPS's section Pair, waiting for each kernel, ms a step", 1.0),
@@ -14,17 +14,14 @@ _TOLD = (("ms_a_step", "Milliseconds a step", 1.0), ("pair_ms_a_step", "LAMMPS's
          ("joule_a_particle_step", "Energy of the card, nJ a particle step", 1e9))
 
 
+def _known(rows: Sequence[Mapping], column: str) -> List[Mapping]:
+    """Those that have it; the rows may be of a CSV file."""
+    return [row for row in rows if row.get(column) not in (None, "")]
+
+
 def _of(rows: Sequence[Mapping], law: str, column: str) -> Optional[float]:
-    values = [float(row[column]) for row in rows if row["law"] == law and row.get(column) not in (None, "")]
-    return median(values) if values else None
-
-
-def _ratio(rows: Sequence[Mapping], law: str, column: str) -> Optional[float]:
-    """Median of ratios to the reference in the same round."""
-    of = [{row["round"]: float(row[column]) for row in rows if row["law"] == which and row.get(column) not in (None, "")}
-          for which in (law, REFERENCE)]
-    both = [of[0][k] / of[1][k] for k in of[0] if k in of[1]]
-    return median(both) if both else None
+    values = [float(row[column]) for row in _known(rows, column) if row["law"] == law]
+    return median(values).value if values else None
 
 
 def tables(rows: Sequence[Mapping]) -> str:
@@ -53,8 +50,8 @@ def _cell(rows: Sequence[Mapping], law: str, column: str, times: float) -> str:
     value = _of(rows, law, column)
     if value is None:
         return ""
-    ratio = None if law == REFERENCE else _ratio(rows, law, column)
-    return f"{times * value:.3g}" + ("" if ratio is None else f" ({ratio:.2f})")
+    ratios = [] if law == REFERENCE else paired_ratios(_known(rows, column), law, REFERENCE, "law", column)
+    return f"{times * value:.3g}" + (f" ({median(ratios).value:.2f})" if ratios else "")
 
 
 def _memory(rows: Sequence[Mapping], laws: Sequence[str]) -> Dict[str, Tuple[int, int, List[str]]]:

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""Medians of paired ratios, and powers fitted to points."""
+"""Medians of paired ratios, for which Python alone will do, and powers fitted to points, for which NumPy is needed."""
 from __future__ import annotations
 
 import math
+import statistics
 from dataclasses import dataclass
-from typing import Dict, Hashable, List, Mapping, Sequence
+from typing import TYPE_CHECKING, Dict, Hashable, List, Mapping, Sequence
 
-import numpy as np
+if TYPE_CHECKING:
+    import numpy as np
 
 
 @dataclass(frozen=True)
@@ -25,8 +27,9 @@ class Median:
 def median(values: Sequence[float]) -> Median:
     if not len(values):
         raise ValueError("a median of nothing")
-    low, middle, high = np.percentile(np.asarray(values, dtype=float), (25.0, 50.0, 75.0))
-    return Median(float(middle), float(low), float(high), len(values))
+    several = values if len(values) > 1 else [*values] * 2
+    low, middle, high = statistics.quantiles(map(float, several), n=4, method="inclusive")
+    return Median(middle, low, high, len(values))
 
 
 def column(rows: Sequence[Mapping], name: Hashable, by: str, value: str) -> Dict[int, float]:
@@ -53,11 +56,15 @@ class Power:
     error: float    #: standard error of the exponent; not a number for two points
 
     def at(self, x: np.ndarray) -> np.ndarray:
+        import numpy as np
+
         return self.factor * np.asarray(x, dtype=float) ** self.exponent
 
 
 def fit_power(x: Sequence[float], y: Sequence[float]) -> Power:
     """Least squares of logarithms."""
+    import numpy as np
+
     u, v = np.log(np.asarray(x, dtype=float)), np.log(np.asarray(y, dtype=float))
     if len(u) < 2:
         raise ValueError("a power needs two points")
