@@ -50,8 +50,8 @@ def verdicts(results: pd.DataFrame, tolerance: Dict[str, float], real: Optional[
     if (results.groupby("d")[wanted].nunique() <= 1).all(axis=None):
         raise NothingToCompare(f"{', '.join(wanted)}: the same at every seed, to the last digit: does the in-file use "
                                "its variable seed?")
-    if real is not None and real > results["d"].min() * (1.0 + 1e-9):
-        raise NothingToCompare(f"the real diameter is {real:g}, allowed are those up to the finest that was run, {results['d'].min():g}")
+    if real is not None and real > results["d"].max():
+        raise NothingToCompare(f"the real diameter is {real:g}, allowed are those up to the coarsest that was run, {results['d'].max():g}")
     for quantity in wanted:
         values = results[quantity].dropna()
         few = [d for d, count in results.groupby("d")[quantity].count().items() if count < 2]

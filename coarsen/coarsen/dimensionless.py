@@ -31,7 +31,7 @@ def _check_plausible(of: object) -> None:
         value = getattr(of, field.name)
         least, most = PLAUSIBLE.get(field.name, (-math.inf, math.inf))
         if not least <= value <= most:
-            raise ValueError(f"{field.name} is {value:g}{UNITS.get(field.name, '')}, allowed are {least:g} to {most:g}")
+            raise ValueError(f"{field.name.replace('_', ' ')} is {value:g}{UNITS.get(field.name, '')}, allowed are {least:g} to {most:g}")
 
 
 @dataclass(frozen=True)

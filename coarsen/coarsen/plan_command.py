@@ -7,7 +7,7 @@ import math
 import subprocess
 import tempfile
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence
 
 import pandas as pd
 
@@ -17,9 +17,7 @@ from .options import percentages
 from .plan import Line, Speed, best, line, series
 from .results import PRELOAD, costs
 
-#: Quantities of specimens of in.confined and in.unconfined.
-SPECIMEN = ("strain", "porosity_before", "porosity", "coordination", "bulk_modulus", "lateral_ratio", "strength")
-#: Of a shear tester and of a silo.
+#: Quantities of a shear tester and of a silo; the others are of specimens.
 MACHINES = ("shear_strength", "flow_function", "friction_angle", "steady_angle", "flow")
 INFILES = Path(__file__).resolve().parents[2] / "examples" / "scale_collapse"
 
@@ -78,26 +76,25 @@ def given(value: Optional[float], otherwise: float) -> float:
     return otherwise if value is None else value
 
 
-def _check_include(arguments: argparse.Namespace, loading: Loading, wanted: Mapping[str, float]) -> None:
-    """:raise ValueError: where --write would write what is not in.confined's"""
+def _check_include(arguments: argparse.Namespace, loading: Loading, machine: Sequence[str]) -> None:
+    """:raise ValueError: where --write would write what is not in.confined's
+    :param machine: quantities of machines that are wanted
+    """
     if not arguments.write:
         return
     if not arguments.write.resolve().parent.is_dir() or arguments.write.is_dir():
         raise ValueError(f"--write {arguments.write}: there is no such folder, or it is one")
-    machine = sorted(set(wanted) - set(SPECIMEN))
-    for wrong, said in ((loading.length != loading.width, f"--length is {loading.length:g}: it is for specimens as long as wide, "
-                         f"{loading.width:g}"),
-                        (arguments.smallest != 1.0, f"--smallest is {arguments.smallest:g}: it is for equal particles"),
-                        (machine, f"--want has {', '.join(machine)}, of a machine: it is for in.confined, which gives "
-                         f"{', '.join(SPECIMEN)}")):
+    for wrong, option, what in (
+            (loading.length != loading.width, f"--length is {loading.length:g}", f"specimens as long as wide, {loading.width:g}"),
+            (arguments.smallest != 1.0, f"--smallest is {arguments.smallest:g}", "equal particles"),
+            (machine, f"--want has {', '.join(machine)}, of a machine", "in.confined")):
         if wrong:
-            raise ValueError(f"--write: no include file with {said}")
+            raise ValueError(f"{option}: the include file is for {what}")
 
 
 def run(arguments: argparse.Namespace) -> int:
     powder = Powder(arguments.diameter, arguments.density, given(arguments.dref, arguments.diameter), arguments.k1,
-                    2.0 * arguments.k1 if arguments.k2 is None else arguments.k2, arguments.kadh, arguments.f0,
-                    arguments.smallest)
+                    given(arguments.k2, 2.0 * arguments.k1), arguments.kadh, arguments.f0, arguments.smallest)
     loading = Loading(arguments.width, given(arguments.length, arguments.width), given(arguments.height, arguments.width),
                       arguments.solid_fraction, *arguments.stress, arguments.rate, arguments.strain,
                       arguments.gravity)
@@ -109,7 +106,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise ValueError(f"--want {machine[0]}: the machines' studies had the same gravity at every diameter: give --gravity 9.81 "
                          "--true-gravity")
     simulated = powder.softened(arguments.soften)
-    _check_include(arguments, loading, wanted)
+    _check_include(arguments, loading, machine)
     table = evidence.read()
     unknown = sorted(set(wanted) - set(table["quantity"]))
     if unknown:

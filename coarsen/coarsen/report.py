@@ -11,14 +11,14 @@ import pandas as pd
 import plotly.graph_objects as go
 from plotly.offline import get_plotlyjs
 
+from .results import COSTS
+
 #: Quantities of runs.csv that have a panel, and what is written at its axis.
 PANELS = {"strain": "strain at 90% of the last level", "porosity_before": "porosity at the preload",
           "porosity": "porosity", "coordination": "coordination number", "bulk_modulus": "bulk modulus (Pa)",
           "lateral_ratio": "lateral stress ratio"}
 #: Of a colour-blind reader (Okabe and Ito).
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-#: Columns of results.costs.
-COSTS = ("particles", "seconds", "test_seconds", "steps", "test_steps")
 #: Variables by which specimens of a group are told apart when means are taken; seeds are not.
 _SEED = "seed"
 

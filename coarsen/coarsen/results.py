@@ -21,6 +21,8 @@ _CPU = re.compile(r"^(\S+)% CPU use with")
 MAKING = ("start", "place", "relax", "pack", "rain", "press")
 #: Of the stress at which a packing is made, from which on strain counts.
 PRELOAD = 1.25
+#: What costs() tells of a run.
+COSTS = ("particles", "seconds", "test_seconds", "steps", "test_steps")
 
 
 def defaults_of(infile: Path) -> Dict[str, str]:
@@ -160,5 +162,4 @@ def costs(folder: Path) -> Dict[str, float]:
     def of_test(values: Dict[str, float]) -> float:
         return sum(value for name, value in values.items() if name not in MAKING)
 
-    return {"particles": particles, "seconds": sum(seconds.values()), "test_seconds": of_test(seconds),
-            "steps": sum(steps.values()), "test_steps": of_test(steps)}
+    return dict(zip(COSTS, (particles, sum(seconds.values()), of_test(seconds), sum(steps.values()), of_test(steps))))

@@ -207,8 +207,8 @@ class Check(unittest.TestCase):
 
     def test_what_can_not_be_compared_is_named(self):
         table = results(lambda d: 1.0)
-        with self.assertRaisesRegex(check.NothingToCompare, "real diameter is 1.5, allowed are those up to the finest that was run, 1"):
-            check.verdicts(table, {"q": 0.1}, real=1.5)
+        with self.assertRaisesRegex(check.NothingToCompare, "real diameter is 3.5, allowed are those up to the coarsest that was run, 3"):
+            check.verdicts(table, {"q": 0.1}, real=3.5)
         table.loc[table["d"] == 2.0, "q"] = np.nan
         with self.assertRaisesRegex(check.NothingToCompare, "q: of diameter 2 fewer than two runs have it"):
             check.verdicts(table, {"q": 0.1})
@@ -218,6 +218,10 @@ class Check(unittest.TestCase):
             found = check.verdicts(results(lambda d: factor if d > 1.5 else 1.0, sizes=(1.0, 2.0)), {"q": 0.04}, real=0.1)
             self.assertEqual(list(found["verdict"]), [said])
             self.assertEqual(list(found["needed"]), [0])
+
+    def test_between_the_diameters_the_interval_is_the_right_way_round(self):
+        row = check.verdicts(results(lambda d: 1.0), {"q": 0.04}, real=2.5).iloc[0]
+        self.assertLess(row["low"], row["high"])
 
     def test_nothing_is_extrapolated_where_means_lie_on_no_straight_line(self):
         found = check.verdicts(results(lambda d: 1.2 if d > 2.5 else 1.0), {"q": 0.04}, real=0.1).set_index("d")
@@ -509,7 +513,7 @@ class Plan(unittest.TestCase):
                            (lambda: Powder(1e-3, 2000, 1e-3, 5e3, 1e4, 0, 1), "f0 is 1, allowed are numbers 0 or less"),
                            (lambda: Powder(0.0, 2000, 1e-3, 5e3, 1e4, 0, 0), "diameter is 0"),
                            (lambda: Loading(1, 1, 1, 0.6, 2, 1, 1, 1, 0), "rising"),
-                           (lambda: Loading(1, 1, 1, 1.2, 1, 2, 1, 1, 0), "solid_fraction is 1.2")):
+                           (lambda: Loading(1, 1, 1, 1.2, 1, 2, 1, 1, 0), "solid fraction is 1.2")):
             with self.subTest(said), self.assertRaisesRegex(ValueError, said):
                 make()
 
@@ -682,8 +686,8 @@ class Commands(unittest.TestCase):
                 ([*self.words, "--want", "porosity"], "--want porosity: allowed is NAME=PERCENT"),
                 ([*self.words, "--want", "porosity=200"], "allowed is NAME=PERCENT with more than 0"),
                 ([*self.words, "--want", "porosity=5", "--diameters", "1e-5"], "--diameters 1e-05: allowed are 5e-05"),
-                ([*self.words, "--want", "porosity=5", "--length", "1", "--write", "x"], "--length is 1: it is for specimens"),
-                ([*self.words, "--want", "porosity=5", "--smallest", "0.5", "--write", "x"], "--smallest is 0.5: it is for equal"),
+                ([*self.words, "--want", "porosity=5", "--length", "1", "--write", "x"], "--length is 1: the include file"),
+                ([*self.words, "--want", "porosity=5", "--smallest", "0.5", "--write", "x"], "--smallest is 0.5: the include file is for equal"),
                 ([*self.words, "--want", "flow=5", "--gravity", "9.81", "--true-gravity", "--write", "x"], "--want has flow, of a machine"),
                 ([*self.words, "--want", "flow=5"], "--want flow: the machines' studies had the same gravity"),
                 ([*self.words, "--want", "friction_angle=5", "--gravity", "9.81"], "give --gravity 9.81 --true-gravity"),
