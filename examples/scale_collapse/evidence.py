@@ -153,13 +153,12 @@ COMPARED = (
 
 def markdown(table: pd.DataFrame) -> str:
     """Rows of `compared` for evidence.md."""
-    shown = [q for q in QUANTITIES if q in table]
-    lines = ["| | packings | W/d | I | δ/d | " + " | ".join(NAMES[q] for q in shown) + " | later strain |",
-             "|---" * (6 + len(shown)) + "|"]
+    lines = ["| | packings | W/d | I | δ/d | " + " | ".join(NAMES[q] for q in QUANTITIES) + " | later strain |",
+             "|---" * (6 + len(QUANTITIES)) + "|"]
     for row in table.to_dict("records"):
         later = row.get(LATER) if row["what"].startswith("loose") else None
         cells = [row["what"], row["packings"], f"{row['W/d']:.3g}", f"{row['I']:.1e}", f"{row['overlap']:.3f}",
-                 *("" if pd.isna(row.get(q)) else row[q] for q in shown), "" if pd.isna(later) else later]
+                 *("" if pd.isna(row.get(q)) else row[q] for q in QUANTITIES), "" if pd.isna(later) else later]
         lines.append("| " + " | ".join(cells).replace("-", "−").replace("e−0", "e-") + " |")
     return "\n".join(lines)
 
@@ -241,15 +240,15 @@ def resampling(runs: pd.DataFrame, seeds: int = 6, count: int = 200) -> pd.DataF
     return pd.DataFrame(rows)
 
 
-def with_earlier(found: pd.DataFrame, path: Path, names: pd.Index, by: str = "run") -> pd.DataFrame:
+def with_earlier(found: pd.DataFrame, path: Path, names: pd.Index) -> pd.DataFrame:
     """Adds the rows of a results file whose runs are still in the study, and not among those found.
 
     :param names: of the study's runs, whose order the rows get
     """
-    earlier = pd.read_csv(path, index_col=by)
+    earlier = pd.read_csv(path, index_col="run")
     kept = earlier[earlier.index.isin(names) & ~earlier.index.isin(found.index)]
     both = pd.concat([some for some in (kept, found) if len(some)])
-    return both.loc[[name for name in names if name in both.index]].rename_axis(by)
+    return both.loc[[name for name in names if name in both.index]].rename_axis("run")
 
 
 def main() -> None:
@@ -265,17 +264,18 @@ def main() -> None:
         runs.to_csv(HERE / "results" / "resample_runs.csv", float_format="%.6g")
         print(resampling(runs).round(2).to_string(index=False))
         return
-    names = read_study(arguments.study).index
+    study = read_study(arguments.study)
     try:
-        runs, curves = tidy(read_study(arguments.study), arguments.out, HERE)
+        runs, curves = tidy(study, arguments.out, HERE)
     except BadRun as none:
         print(f"{none}: only the results of earlier runs")
         runs, curves = pd.DataFrame(index=pd.Index([], name="run")), pd.DataFrame({"run": []})
-    runs = with_earlier(runs, HERE / "results" / "evidence_runs.csv", names)
+    runs = with_earlier(runs, HERE / "results" / "evidence_runs.csv", study.index)
     curves = with_earlier(curves.set_index("run"), HERE / "results" / "evidence_curves.csv.gz", runs.index).reset_index()
     runs.to_csv(HERE / "results" / "evidence_runs.csv", float_format="%.6g")
     curves[["stress", "strain", "porosity", "coordination", "bulk_coordination", "run", "branch"]].to_csv(
-        HERE / "results" / "evidence_curves.csv.gz", index=False, float_format="%.6g")
+        HERE / "results" / "evidence_curves.csv.gz", index=False, float_format="%.6g",
+        compression={"method": "gzip", "mtime": 0})    # the same curves are the same file
     found = slopes(runs)
     soft = runs[runs["group"].isin(("overlap", "width"))]
     pressure = soft["level"].astype(str).str.split().str[-1].astype(float) * soft["dref"] / soft["k1"]
